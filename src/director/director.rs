@@ -14,6 +14,7 @@ use glam::{DQuat, DVec3, Vec3};
 
 use crate::acting::acts;
 use crate::alternatives::without_denied_turns;
+use crate::banned::name_banned;
 use crate::beats::direct_beats;
 use crate::codes::{self, Field, KeyCode, NEXT_SEGMENT, PoseCode};
 use crate::compositions::direct_composed;
@@ -39,6 +40,7 @@ use crate::scan_parts::{described_part, own_parts};
 use crate::sized::point_by_size;
 use crate::times::ListedTimes;
 use crate::told::without_told;
+use crate::uses::name_by_uses;
 
 /// The facts about a scene that the director needs.
 #[derive(Debug, Clone, Copy)]
@@ -131,6 +133,8 @@ impl Director {
         found.retain(|found| !is_blank(found.mention.bytes[0]));
         drop_sizes(prompt, objects, &mut found);
         name_by_label_words(prompt, objects, &mut found);
+        name_by_uses(prompt, objects, &mut found);
+        name_banned(prompt, objects, &mut found);
         join_likenesses(prompt, objects, &mut found);
         name_pictures(prompt, objects, &mut found);
         point_by_words(prompt, objects, &mut found);

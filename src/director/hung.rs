@@ -10,6 +10,8 @@ use crate::names::FoundMention;
 /// What hangs on walls, and what the scene may call it.
 pub(crate) const PICTURES: &str = "picture painting print poster photo photograph artwork canvas";
 pub(crate) const LABELS: &str = "picture painting print poster photo photograph artwork";
+/// What pictures are of: `the framed landscape`.
+const SCENES: &str = "landscape seascape portrait watercolor watercolour sketch drawing map certificate abstract still";
 /// Words before such a name, and most of them.
 const ARTICLES: &str = "the that this";
 const MOST_BEFORE: usize = 5;
@@ -29,7 +31,8 @@ pub(crate) fn name_pictures(prompt: &str, objects: &[NamedObject], found: &mut V
     }
     let words = tokenize(prompt);
     let text = |at: usize| words.get(at).map_or("", |word| word.text.as_str());
-    for at in (0..words.len()).filter(|at| is_listed(PICTURES, text(*at))) {
+    let is_framed = |at: usize| at > 0 && text(at - 1) == "framed" && is_listed(SCENES, text(at));
+    for at in (0..words.len()).filter(|at| is_listed(PICTURES, text(*at)) || is_framed(*at)) {
         let article = (at.saturating_sub(MOST_BEFORE)..at).rev().find(|before| is_listed(ARTICLES, text(*before)));
         let Some(article) = article.filter(|article| (article + 1..at).all(|word| words[word].is_alphabetic())) else {
             continue;
@@ -37,8 +40,11 @@ pub(crate) fn name_pictures(prompt: &str, objects: &[NamedObject], found: &mut V
         let looks = (article + 1..at).any(|word| is_listed(LOOKS, text(word)));
         let is_placed = is_listed(PLACES, text(at + 1)) && !matches!(text(at + 3), "screen" | "camera" | "end");
         let span = [words[article].span[0], words[at].span[1]];
-        let is_linked = found.iter().any(|found| found.mention.bytes[0] < span[1] && span[0] < found.mention.bytes[1]);
+        let overlaps = |found: &FoundMention| found.mention.bytes[0] < span[1] && span[0] < found.mention.bytes[1];
+        // What is taken for something that the scene lacks is none of its things.
+        let is_linked = found.iter().any(|found| overlaps(found) && !found.mention.ids.is_empty());
         if looks && (is_placed || !words.get(at + 1).is_some_and(Word::is_alphabetic)) && !is_linked {
+            found.retain(|found| !overlaps(found));
             insert_mention(found, Mention { bytes: span, ids: ids.clone() });
         }
     }
@@ -60,6 +66,7 @@ mod tests {
         };
         assert_eq!(named("tilt up to the big sunset picture above the sofa"), [[1, 3]]);
         assert_eq!(named("end on the framed print, then hold"), [[1, 3]]);
+        assert_eq!(named("up to the framed landscape over the headboard"), [[1, 3]]);
         for other in ["keep the whole picture on the lamp", "the lamp fills the big picture frame", "a nice picture"] {
             assert_eq!(named(other), Vec::<Vec<u32>>::new(), "{other}");
         }

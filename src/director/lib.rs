@@ -17,6 +17,7 @@
 
 mod acting;
 mod alternatives;
+mod banned;
 mod beats;
 mod calibration;
 pub mod codes;
@@ -47,6 +48,7 @@ mod sized;
 mod tensor_file;
 mod times;
 mod told;
+mod uses;
 
 pub use calibration::Calibration;
 pub use decoding::Choice;

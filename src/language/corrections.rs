@@ -175,7 +175,10 @@ fn denied_again(words: &[&str], at: usize) -> usize {
     let Some(rest) = words.get(at..).filter(|rest| rest.first() == Some(&"not")) else { return 0 };
     let thing = 1 + rest[1..].iter().take_while(|word| FILLERS.contains(word) || PREPOSITIONS.contains(word)).count();
     let marks = rest.iter().skip(thing + 1).take_while(is_mark).count();
-    let is_denied = rest.get(thing).is_some_and(|word| word.starts_with(OBJECT)) && marks > 0;
+    // `Not the mug the plates`, as people say it aloud.
+    let is_named = |word: &&str| word.starts_with(OBJECT) && rest.get(thing) != Some(word);
+    let goes_on = rest.iter().skip(thing + 1).find(|word| !FILLERS.contains(word)).is_some_and(is_named);
+    let is_denied = rest.get(thing).is_some_and(|word| word.starts_with(OBJECT)) && (marks > 0 || goes_on);
     if is_denied { thing + 1 + marks } else { 0 }
 }
 
@@ -246,8 +249,9 @@ mod tests {
         assert_eq!(corrected("go for <obj-0> . . . no wait , not <obj-0> , <obj-1> beside it"), plates);
         assert_eq!(
             corrected("go for the <obj-0> , wait no , not on <obj-0> . <obj-1> beside it"),
-            plates.map(|text| text.replace("for", "for the"))
+            plates.clone().map(|text| text.replace("for", "for the"))
         );
+        assert_eq!(corrected("go for <obj-0> no sorry not <obj-0> <obj-1> beside it"), plates);
         assert_eq!(corrected("go for <obj-0> , no wait , not so fast"), None);
     }
 

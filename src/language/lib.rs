@@ -106,6 +106,7 @@ mod notation;
 mod numbered;
 mod numerals;
 mod part;
+mod pictograms;
 mod plain;
 mod quantity;
 mod rates;

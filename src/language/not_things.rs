@@ -6,6 +6,7 @@ use super::heights::is_level_name;
 use super::mention::Mention;
 use super::names::NamedObject;
 use super::numerals::number_word;
+use super::things::{Relation, Things};
 use super::tokenizer::{Word, is_listed, tokenize, word_at};
 
 /// Colors and what they are mixed with.
@@ -57,6 +58,28 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
         || is_sky(&words, [first, end], objects)
         || is_lounge(&words, [first, end], objects)
         || is_count(&words, [first, end])
+        || is_floor(&words, [first, end], objects)
+}
+
+/// What floors are made of, and words of who is near them.
+const FLOORS: &str = "tile floorboard lino linoleum carpet board parquet flagstone flag plank cobble cobblestone laminate lawn turf \
+    skirting pavement paving";
+const LOW: &str = "down low lying along level crouched close";
+const BESIDE_FLOOR: &str = "by on at near to with the just right against above";
+
+/// `Start down by the tiles`: the floor, where no thing of the scene is called so.
+fn is_floor(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
+    let names: Vec<&Word> = words[first..end].iter().filter(|word| word.text != "the").collect();
+    let is_one = names.len() == 1 && is_listed(FLOORS, &names[0].stem);
+    let is_label = |object: &NamedObject| {
+        let things = Things::embedded();
+        let related = things.related(&things.kinds_of(&object.label));
+        related.get(&names[0].stem).is_some_and(|relations| Relation::Same.is_in(*relations))
+            || tokenize(&object.label).iter().any(|word| word.stem == names[0].stem)
+    };
+    let mut before = words[..first].iter().rev().skip_while(|word| is_listed(BESIDE_FLOOR, &word.text));
+    let is_low = before.next().is_some_and(|word| is_listed(LOW, &word.text));
+    is_one && is_low && !objects.iter().any(is_label)
 }
 
 /// Verbs of who goes where the light goes, and words behind it.
@@ -222,6 +245,13 @@ mod tests {
         assert!(is_none("silky smooth orbit", "silky"));
         assert!(is_none("push in, smooth as silk", "silk"));
         assert!(!is_none("push in on the silk", "silk"));
+    }
+
+    #[test]
+    fn what_a_floor_is_made_of_is_no_thing() {
+        assert!(is_none("start down by the tiles, looking up at the skull", "the tiles"));
+        assert!(is_none("glide low along the floorboards", "the floorboards"));
+        assert!(!is_none("push in on the tiles", "the tiles"));
     }
 
     #[test]

@@ -68,6 +68,9 @@ pub(crate) fn numeral_at(words: &[Word], i: usize) -> Option<Numeral> {
         ("few", _, _) => return fraction(1, 3.0),
         ("three" | "3", "quarter" | "quarters", _) => return fraction(2 + of_a(words, i + 2), 0.75),
         ("two" | "2", "third" | "thirds", _) => return fraction(2 + of_a(words, i + 2), 2.0 / 3.0),
+        (_, parts, _) if several_parts(words, i, parts).is_some() => {
+            return fraction(2 + of_a(words, i + 2), several_parts(words, i, parts)?);
+        }
         (part, "of", _) if denominator(part).is_some() && !is_ordinal(words, i) => {
             return fraction(1 + of_a(words, i + 1), 1.0 / denominator(part)?);
         }
@@ -87,6 +90,13 @@ pub(crate) fn numeral_at(words: &[Word], i: usize) -> Option<Numeral> {
 /// Whether the fraction at word `i` follows an article that makes it an ordinal: `the third of them`.
 fn is_ordinal(words: &[Word], i: usize) -> bool {
     i.checked_sub(1).is_some_and(|before| matches!(word_at(words, before), "the" | "two" | "three" | "2" | "3"))
+}
+
+/// `Three fifths`, less than one.
+fn several_parts(words: &[Word], i: usize, parts: &str) -> Option<f64> {
+    let (len, count) = cardinal_at(words, i)?;
+    let share = count / denominator(parts.strip_suffix('s')?)?;
+    (len == 1 && share < 1.0).then_some(share)
 }
 
 /// The denominator of a fraction in words.

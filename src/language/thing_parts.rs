@@ -7,6 +7,7 @@ use std::sync::OnceLock;
 
 use super::error::LanguageError;
 use super::list_lines::list_lines;
+use super::things::{Relation, Things};
 use super::tokenizer::{Word, is_listed, tokenize};
 
 const FILE: &str = "prompts/parts.txt";
@@ -157,8 +158,23 @@ pub fn part_of(words: &str, label: &str) -> Result<Option<PartPlace>, LanguageEr
     if name.last().is_some_and(|last| label.iter().any(|word| word.text.ends_with(&last.text))) {
         return Ok(None);
     }
+    // `The white seat` is all of a white armchair.
+    let (kind, looks) = label.split_last().map_or((None, &label[..]), |(kind, looks)| (Some(kind), looks));
+    let is_look = |word: &Word| looks.iter().any(|look| look.text == word.text) && !is_listed(BEFORE, &word.text);
+    if kind.is_some_and(|kind| is_kind(name, &kind.text)) && before.iter().any(is_look) {
+        return Ok(None);
+    }
     let says_label = before.iter().all(|word| is_listed(BEFORE, &word.text) || is_label(&word.text));
     Ok(says_label.then_some(place))
+}
+
+/// Whether a name stands for things of a kind as well: `seat` for an armchair.
+fn is_kind(name: &[Word], kind: &str) -> bool {
+    let things = Things::embedded();
+    let related = things.related(&things.kinds_of(kind));
+    let stems: Vec<&str> = name.iter().map(|word| word.stem.as_str()).collect();
+    let relations = related.get(&stems.join(" ")).copied().unwrap_or_default();
+    Relation::Same.is_in(relations) || Relation::Broader.is_in(relations)
 }
 
 /// The parts of a thing labelled `label` that a prompt names and whose heights are known, in the order of the prompt. Where the
@@ -248,6 +264,8 @@ mod tests {
         assert_eq!(place("the front", "armchair"), Some("front"));
         assert_eq!(place("its pot", "palm tree"), Some("bottom"));
         assert_eq!(place("the lamp shade", "lamp shade"), None);
+        assert_eq!(place("the white seat", "white armchair"), None);
+        assert_eq!(place("the chair seat", "white chair"), Some("front"));
         assert_eq!(place("the stand", "music stand"), None);
         assert_eq!(place("the golden head", "statue"), None);
         assert_eq!(place("the statue", "statue"), None);

@@ -2,10 +2,11 @@
 //!
 //! Enters: any UTF-8 text. Leaves: one word per run of letters or digits, one word per punctuation mark. Case, accents,
 //! typographic quotes and dashes, full-width forms, joiners and direction marks do not change the words. Hyphens split
-//! words (`push-in` = `push in`), and so does the border between digits and letters (`2.5s` = `2.5 s`). The sign of a turn is a
-//! word (`yaw -30` = `yaw minus 30`). One pass over the text.
+//! words (`push-in` = `push in`), and so does the border between digits and letters (`2.5s` = `2.5 s`). The sign of a turn or
+//! a translation is a word (`yaw -30` = `yaw minus 30`). One pass over the text.
 
 use super::inflection::stem;
+use super::pictograms::{is_name, name_of};
 
 /// One word and the bytes of the prompt that it was made from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -52,6 +53,8 @@ enum Glyph {
     /// A double quotation mark, or the sign of inches.
     Quotation,
     Hyphen,
+    /// A picture of a thing, with its name.
+    Pictogram(&'static str),
     Space,
     /// Dropped: it neither belongs to a word nor ends one.
     Invisible,
@@ -79,6 +82,10 @@ pub fn tokenize(text: &str) -> Vec<Word> {
     for (index, &(start, end, glyph)) in glyphs.iter().enumerate() {
         let before = index.checked_sub(1).and_then(|i| glyphs.get(i)).map(|g| g.2);
         let after = glyphs.get(index + 1).map(|g| g.2);
+        if let Glyph::Pictogram(name) = glyph {
+            tokenizer.push_pictogram(name, [start, end], &first_word(&glyphs[index + 1..]));
+            continue;
+        }
         tokenizer.push(glyph, [start, end], [before, after]);
     }
     tokenizer.end_word();
@@ -86,6 +93,20 @@ pub fn tokenize(text: &str) -> Vec<Word> {
         word.stem = stem(&word.text);
     }
     tokenizer.words
+}
+
+/// The word or mark that some glyphs begin with.
+fn first_word(glyphs: &[(usize, usize, Glyph)]) -> String {
+    let rest = glyphs.iter().map(|glyph| glyph.2).skip_while(|glyph| matches!(glyph, Glyph::Space | Glyph::Invisible));
+    let mut word = String::new();
+    for glyph in rest {
+        match glyph {
+            Glyph::Letter(c) => word.push(c),
+            Glyph::Mark(c) if word.is_empty() => return c.to_string(),
+            _ => break,
+        }
+    }
+    word
 }
 
 #[derive(Default)]
@@ -123,6 +144,14 @@ impl Tokenizer {
         self.words.push(Word { text: text.to_owned(), stem: String::new(), span, after_hyphen: false });
     }
 
+    /// Appends the name of a pictogram that stands where a noun does; `behind` is the word that follows.
+    fn push_pictogram(&mut self, name: &str, span: [usize; 2], behind: &str) {
+        self.end_word();
+        if is_name(self.words.last().map(|word| word.text.as_str()), behind) {
+            self.push_mark(name, span);
+        }
+    }
+
     fn push(&mut self, glyph: Glyph, span: [usize; 2], [before, after]: [Option<Glyph>; 2]) {
         let next_is_digit = matches!(after, Some(Glyph::Digit(_)));
         let in_digits = matches!(self.current, Some((Run::Digits, _)));
@@ -152,8 +181,8 @@ impl Tokenizer {
             Glyph::Hyphen if matches!(before, Some(Glyph::Space)) && matches!(after, Some(Glyph::Space)) => {
                 self.push_mark(",", span);
             }
-            // The sign of a turn: `yaw -30`.
-            Glyph::Hyphen if next_is_digit && matches!(before, Some(Glyph::Space)) && self.is_after_turn() => {
+            // The sign of a turn or a way: `yaw -30`.
+            Glyph::Hyphen if next_is_digit && matches!(before, Some(Glyph::Space)) && self.takes_sign() => {
                 self.push_mark("minus", span);
             }
             Glyph::Hyphen => {
@@ -168,15 +197,17 @@ impl Tokenizer {
                 self.end_word();
                 self.in_quotation = next_is_letter || next_is_digit;
             }
-            Glyph::Space => self.end_word(),
+            Glyph::Space | Glyph::Pictogram(_) => self.end_word(),
             Glyph::Invisible => {}
         }
     }
 
-    /// Whether the last word is a turn about an axis.
-    fn is_after_turn(&self) -> bool {
-        let last = self.words.last().map(|word| word.text.as_str());
-        matches!(last, Some("yaw" | "pitch" | "roll" | "pan" | "tilt" | "heading" | "azimuth" | "elevation"))
+    /// Whether the last word is a turn about an axis, or a way along one.
+    fn takes_sign(&self) -> bool {
+        const SIGNED: &str =
+            "yaw pitch roll pan tilt heading azimuth elevation translate translation displacement displace offset";
+        let mut back = self.words.iter().rev().skip_while(|word| matches!(word.text.as_str(), "of" | "by"));
+        back.next().is_some_and(|word| is_listed(SIGNED, &word.text))
     }
 
     fn has_point(&self) -> bool {
@@ -190,7 +221,9 @@ fn glyph(c: char) -> Glyph {
         '\'' | '\u{2018}' | '\u{2019}' | '\u{201B}' | '\u{2032}' | '`' | '\u{B4}' => Glyph::Apostrophe,
         '"' | '\u{201C}' | '\u{201D}' | '\u{201E}' | '\u{2033}' | '\u{AB}' | '\u{BB}' => Glyph::Quotation,
         '-' | '_' | '\u{2010}' | '\u{2011}' | '\u{2012}' | '\u{2212}' | '\u{AD}' => Glyph::Hyphen,
-        '\u{2013}' | '\u{2014}' | '\u{2015}' | '\u{2192}' | '\u{2794}' | '\u{21D2}' => Glyph::Mark(','),
+        '\u{2013}' | '\u{2014}' | '\u{2015}' | '\u{2192}' | '\u{2794}' | '\u{21D2}' | '\u{27A1}' | '\u{279C}' => {
+            Glyph::Mark(',')
+        }
         '\u{2026}' => Glyph::Mark('.'),
         '\u{B0}' | '\u{BA}' => Glyph::Mark('\u{B0}'),
         '\u{D7}' => Glyph::Letter('x'),
@@ -200,7 +233,7 @@ fn glyph(c: char) -> Glyph {
         _ if is_invisible(c) => Glyph::Invisible,
         _ if c.is_ascii_digit() => Glyph::Digit(c),
         _ if c.is_alphabetic() => Glyph::Letter(unaccented(c)),
-        _ => Glyph::Space,
+        _ => name_of(c).map_or(Glyph::Space, Glyph::Pictogram),
     }
 }
 

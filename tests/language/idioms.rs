@@ -25,6 +25,15 @@ fn idioms_become_words_of_the_trade() {
         ("walk once all the way round [the statue]", "walk around <obj-0> <qty-0>"),
         ("make bigger [the mug] with the lens", "zoom in on <obj-0>"),
         ("from the same height as they are", "at eye level"),
+        ("move off [it] until the gap between us and it has doubled", "move off <obj-0> until it is <qty-0>"),
+        ("come back out to where you set off from", "pull back to where it started"),
+        ("keep facing the way you're facing", "without turning"),
+        ("trombone shot on [the mug], travelling closer", "dolly zoom in on <obj-0>"),
+        ("back away from [the mug] and zoom in so it stays equally big", "dolly zoom out on <obj-0>"),
+        ("translate -0.8 m along camera x (x = right)", "truck left <qty-0>"),
+        ("pose B = pose A + 0.5 m right", "then truck right <qty-0> without turning"),
+        ("start down by the tiles looking up at [the mug]", "start with a low angle looking up at <obj-0>"),
+        ("no [palm] anywhere", "never show <obj-0>"),
     ] {
         assert_eq!(linked(prompt).1.tokens_text, plain, "{prompt}");
     }

@@ -1,7 +1,7 @@
 //! Cameras that stay where they are: `camera position fixed`, `position locked`, `the camera stays put, it just looks`.
 
 use cinesplat_language::Linked;
-use cinesplat_operator::{Motion, Program, Step};
+use cinesplat_operator::{Framing, Motion, Program, Step};
 use cinesplat_trajectory::Move;
 
 use super::directions::is_form;
@@ -120,6 +120,14 @@ fn is_fixed(words: &[&str], at: usize) -> bool {
 /// Turns what would travel to another thing than the one that is `shown`, and zooms where it would go nearer to that one;
 /// `words` are the step's.
 fn turn_instead(step: &mut Step, shown: &[u32], zooms: bool, words: &[&str]) {
+    // `Camera is going right`, where it only turns.
+    if step.end == Framing::default() && step.via.is_none() && step.with.is_empty() && step.amount.is_none() {
+        step.movement = match step.movement {
+            Move::TruckLeft => Move::PanLeft,
+            Move::TruckRight => Move::PanRight,
+            movement => movement,
+        };
+    }
     let leads = !step.end.subjects.is_empty() && step.via.is_none() && step.with.is_empty() && !step.returns;
     if !leads || step.end.height.is_some() || step.amount.is_some() && !step.movement.is_circular() {
         return;
@@ -145,8 +153,9 @@ fn turn_instead(step: &mut Step, shown: &[u32], zooms: bool, words: &[&str]) {
         Move::CraneDown | Move::PedestalDown => (Move::TiltDown, false),
         Move::PullOut if zooms && !is_other => (Move::ZoomOut, false),
         Move::PushIn if !is_other => (Move::ZoomIn, false),
-        Move::PushIn | Move::PullOut if is_other => turn,
-        Move::Static if is_other && !step.start.subjects.is_empty() => turn,
+        Move::PushIn | Move::PullOut | Move::TruckLeft | Move::TruckRight if is_other => turn,
+        // `Camera is going right, stop at the chair`.
+        Move::Static if is_other && (!step.start.subjects.is_empty() || left != right) => turn,
         movement if is_other && movement.is_circular() => {
             step.amount = None;
             turn
@@ -176,6 +185,17 @@ fn travels(step: &Step) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_camera_that_only_turns_goes_nowhere() {
+        let text = "camera is going right , no travel";
+        let linked = super::super::fixture::linked(text);
+        let step = Step { words: Some([0, text.len()]), ..Step::of(Move::TruckRight) };
+        let mut program = Program { steps: vec![step], ..Program::default() };
+        stay_put(&linked, &mut program);
+        assert_eq!(program.steps[0].movement, Move::PanRight);
+        assert_eq!(program.forbidden, [Motion::Travel]);
+    }
 
     #[test]
     fn a_position_that_is_fixed_is_told_from_one_that_is_not() {

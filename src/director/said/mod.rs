@@ -19,6 +19,7 @@ mod first_pictures;
 mod fixed;
 #[cfg(test)]
 pub(crate) mod fixture;
+mod frame_sides;
 mod headlines;
 mod heights;
 mod lengths;
@@ -33,6 +34,7 @@ mod openings;
 mod pans;
 mod places;
 mod postures;
+mod purposes;
 mod ranges;
 mod rates;
 mod repeats;
@@ -95,6 +97,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     places::complete_framings(steps);
     places::place_ends(linked, steps);
     moods::drop_statements(linked, direction);
+    purposes::drop_purposes(linked, direction);
     repeats::merge_repeated(linked, senses, direction)?;
     amounts::leave_to_owner(linked, &mut direction.program.steps);
     repeats::pass_one_after_another(linked, direction);
@@ -191,6 +194,7 @@ fn take_said_of_views(linked: &Linked, steps: &mut [Step]) {
     directions::lead_between_ends(linked, steps);
     unsaid_parts::drop_unsaid_parts(linked, steps);
     first_pictures::begin_at_named(linked, steps);
+    frame_sides::leave_sides_to_owners(linked, steps);
 }
 
 /// Corrects the moves of a direction, whose pictures are settled, by what the words say plainly.

@@ -49,6 +49,7 @@ pub(crate) fn keep_or_avoid(linked: &Linked, steps: &mut [Step]) {
 pub(crate) fn avoid_throughout(linked: &Linked, program: &mut Program) {
     let mut banned: Vec<u32> = program.steps.iter().flat_map(|step| step.avoid.clone()).collect();
     banned.retain(|id| is_banned_throughout(linked, *id));
+    banned.extend(linked.expanded(&never_shown(linked)));
     for step in &mut program.steps {
         let passed = step.via.iter().flat_map(|via| &via.objects);
         let shown: Vec<u32> = step.start.subjects.iter().chain(&step.end.subjects).chain(passed).copied().collect();
@@ -58,6 +59,13 @@ pub(crate) fn avoid_throughout(linked: &Linked, program: &mut Program) {
             }
         }
     }
+}
+
+/// The things of `never show the palm`, which the network leaves out behind other clauses.
+fn never_shown(linked: &Linked) -> Vec<u32> {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let named = words.windows(3).filter(|three| three[..2] == ["never", "show"]);
+    named.filter_map(|three| linked.slot_at(three[2])).filter(|id| linked.missing(*id).is_none()).collect()
 }
 
 /// Words of a sentence that keeps a thing in view, and of what it is kept in.

@@ -23,6 +23,12 @@ pub(super) type Lists = std::collections::BTreeMap<String, Arc<Vec<Vec<Piece>>>>
 
 /// Reads a pattern; `lists` are the named ones before it.
 pub(super) fn pattern(text: &str, lists: &Lists) -> Result<Vec<Piece>, String> {
+    let mut whole = alternatives(text, lists)?;
+    Ok(if whole.len() == 1 { whole.remove(0) } else { vec![Piece::OneOf(Arc::new(whole))] })
+}
+
+/// Reads patterns with `|` between them, each of which may have groups of its own.
+pub(super) fn alternatives(text: &str, lists: &Lists) -> Result<Vec<Vec<Piece>>, String> {
     let spaced = ["(", ")", "|"].iter().fold(text.to_owned(), |text, mark| text.replace(mark, &format!(" {mark} ")));
     let mut open: Vec<Vec<Vec<Piece>>> = vec![vec![Vec::new()]];
     for token in spaced.split_whitespace() {
@@ -46,8 +52,7 @@ pub(super) fn pattern(text: &str, lists: &Lists) -> Result<Vec<Piece>, String> {
         }
     }
     match (open.pop(), open.is_empty()) {
-        (Some(mut whole), true) if whole.len() == 1 => Ok(whole.remove(0)),
-        (Some(whole), true) => Ok(vec![Piece::OneOf(Arc::new(whole))]),
+        (Some(whole), true) => Ok(whole),
         _ => Err("`(` without `)`".to_owned()),
     }
 }
@@ -80,6 +85,8 @@ fn piece(token: &str, lists: &Lists) -> Result<Piece, String> {
     Ok(match token {
         "^" => Piece::Start,
         "$" => Piece::End,
+        "[" => Piece::Word("(".to_owned()),
+        "]" => Piece::Word(")".to_owned()),
         _ if token.starts_with("..") => Piece::Gap(token.to_owned()),
         _ => Piece::Word(token.to_owned()),
     })

@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::sync::{Arc, OnceLock};
 
 use super::matching::{Found, Piece, Subject, match_at};
-use super::parse::{Lists, Output, output, pattern};
+use super::parse::{Lists, Output, alternatives, output, pattern};
 use crate::error::LanguageError;
 use crate::linked::{OBJECT, QUANTITY};
 use crate::list_lines::list_lines;
@@ -48,10 +48,9 @@ impl Table {
 
     /// Reads a named list (`@name = a | b`) or an idiom (`pattern => words`).
     fn take_line(&mut self, line: &str, lists: &mut Lists) -> Result<(), String> {
-        if let Some((name, alternatives)) = line.strip_prefix('@').and_then(|rest| rest.split_once(" = ")) {
-            let alternatives: Result<Vec<_>, _> =
-                alternatives.split(" | ").map(|alternative| pattern(alternative, lists)).collect();
-            lists.insert(name.trim().to_owned(), Arc::new(alternatives?));
+        if let Some((name, text)) = line.strip_prefix('@').and_then(|rest| rest.split_once(" = ")) {
+            let list = alternatives(text, lists)?;
+            lists.insert(name.trim().to_owned(), Arc::new(list));
             return Ok(());
         }
         let (left, right) =

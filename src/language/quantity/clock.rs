@@ -106,7 +106,7 @@ fn continues(words: &[Word], i: usize, start: Instant) -> bool {
             || *at > 0 && is_dash(words, at - 1);
         after_link && instant_at(words, *at).is_some_and(|instant| (instant.secs - start.secs).abs() < 1e-9)
     };
-    begins_clause(words, i)
+    (begins_clause(words, i) || word_before(words, i, 1) == "/")
         && (first..i).rev().any(|at| ends_span(&at))
         && (time_before(words, i, LOOK_BACK) || has_zero(words, i))
 }

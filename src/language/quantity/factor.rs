@@ -3,14 +3,15 @@
 use super::context::{clause_back, ends_phrase, is_joined, word_before};
 use super::kind::{Found, QuantityKind, found};
 use crate::numerals::{Numeral, NumeralForm, cardinal_at, numeral_at};
-use crate::tokenizer::{Word, word_at};
+use crate::tokenizer::{Word, is_listed, word_at};
 
 /// A factor on the distance or the focal length.
 pub(super) fn factor_at(words: &[Word], i: usize) -> Option<Found> {
     let (len, value) = multiple_at(words, i)
         .or_else(|| part_of_way_at(words, i))
         .or_else(|| factor_of_at(words, i))
-        .or_else(|| percent_more_at(words, i))
+        .or_else(|| half_again_at(words, i))
+        .or_else(|| more_at(words, i))
         .or_else(|| part_of_distance_at(words, i))?;
     Some(found(len, QuantityKind::Factor, value))
 }
@@ -41,52 +42,77 @@ fn part_of_way_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
     is_way.then_some((number.len + the + 1, 1.0 - number.value))
 }
 
-/// `a third of the distance`, `halve the distance`, `closer by half`.
+/// Words for the way between the camera and a thing, and for that way as it is at first.
+const DISTANCES: &str = "distance gap separation";
+const AT_FIRST: &str = "what where original present current initial starting first";
+/// Verbs that leave of a distance what they do not name: `close two thirds of the gap`.
+const CLOSES: &str = "close closes closing cover covers covering cross crosses crossing eat eats eating lose travel travels \
+    traveling travelling swallow";
+
+/// `a third of the distance`, `halve the gap`, `close a third of the gap`, `the gap is a third of what it was`.
 fn part_of_distance_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
-    let next = [0, 1, 2].map(|k| word_at(words, i + k));
-    match next {
-        ["halve", "the" | "your" | "our", "distance"] => return Some((3, 0.5)),
-        ["a", "half", _] if is_nearer_by(words, i) && ends_phrase(words, i + 2) => return Some((2, 0.5)),
-        ["half", "of", "now"] if word_before(words, i, 1) == "distance" => return Some((3, 0.5)),
-        ["half", ..] if is_nearer_by(words, i) && ends_phrase(words, i + 1) => return Some((1, 0.5)),
+    let article = usize::from(matches!(word_at(words, i + 1), "the" | "your" | "our"));
+    let is_distance = |at: usize| is_listed(DISTANCES, word_at(words, at));
+    match word_at(words, i) {
+        "halve" | "halves" | "halving" if is_distance(i + 1 + article) => return Some((2 + article, 0.5)),
+        "half" if word_before(words, i, 1) == "distance" && word_at(words, i + 1) == "of" => {
+            return (word_at(words, i + 2) == "now").then_some((3, 0.5));
+        }
         _ => {}
     }
     let number = fraction_at(words, i)?;
-    let the = usize::from(matches!(word_at(words, i + number.len), "the" | "that"));
-    (word_at(words, i + number.len + the) == "distance").then_some((number.len + the + 1, number.value))
+    let end = i + number.len;
+    let the = usize::from(matches!(word_at(words, end), "the" | "that" | "this" | "our" | "your"));
+    if is_distance(end + the) {
+        let is_closed = is_listed(CLOSES, word_before(words, i, 1));
+        return Some((number.len + the + 1, if is_closed { 1.0 - number.value } else { number.value }));
+    }
+    let of = usize::from(word_at(words, end) == "of");
+    let the = usize::from(word_at(words, end + of) == "the");
+    let is_of_first =
+        (word_before(words, end, 1) == "of" || of > 0) && is_listed(AT_FIRST, word_at(words, end + of + the));
+    let is_about = clause_back(words, i, 8).any(|word| is_listed(DISTANCES, word));
+    (is_of_first && is_about).then_some((number.len, number.value))
 }
 
-/// Whether `closer by` or `by` after a verb of approach stands before word `i`.
-fn is_nearer_by(words: &[Word], i: usize) -> bool {
-    word_before(words, i, 1) == "by"
-        && (matches!(word_before(words, i, 2), "closer" | "nearer" | "in" | "tighter" | "then")
-            || clause_back(words, i, 4).any(|word| word == "distance"))
+/// `back off by half again`, `half again as far`, `half as far again`: one and a half times.
+fn half_again_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
+    let next = [0, 1, 2, 3].map(|k| word_at(words, i + k));
+    let (len, what) = match next {
+        ["half", "again", "as", "far" | "much"] => (4, next[3]),
+        ["half", "as", "far" | "much", "again"] => (4, next[2]),
+        ["half", "again", ..] => (2, ""),
+        _ => return None,
+    };
+    let is_farther = what == "far" || clause_back(words, i, 8).any(|word| is_listed(RETREATS, word));
+    is_farther.then_some((len, 1.5))
 }
 
 fn fraction_at(words: &[Word], i: usize) -> Option<Numeral> {
     numeral_at(words, i).filter(|n| n.form == NumeralForm::Fraction && n.value < 1.0)
 }
 
-/// `50% closer`, `10 percent bigger`, `zoom in 30%`.
-fn percent_more_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
-    let (len, value) = cardinal_at(words, i).filter(|(_, value)| *value > 0.0)?;
-    let sign = match [0, 1].map(|k| word_at(words, i + len + k)) {
-        ["%" | "percent" | "pct", _] => 1,
-        ["per", "cent"] => 2,
-        _ => return None,
-    };
-    let end = i + len + sign;
-    let share = value / 100.0;
+/// Words of a way back.
+const RETREATS: &str = "back away off out farther further retreat retreats retreating withdraw";
+
+/// `50% closer`, `a third closer`, `10 percent bigger`, `zoom in 30%`, `closer by a third`.
+fn more_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
+    let percent = percent_at(words, i);
+    let fraction = || fraction_at(words, i).map(|number| (number.len, number.value));
+    let (len, share) = percent.or_else(fraction)?;
+    let end = i + len;
     let zooms = zooms_before(words, i);
     let (more, factor) = match [0, 1, 2].map(|k| word_at(words, end + k)) {
         ["closer" | "nearer", ..] => (1, 1.0 - share),
-        ["further" | "farther", "away" | "back" | "out", _] => (2, 1.0 + share),
+        ["further" | "farther", "away" | "back" | "out" | "off", _] => (2, 1.0 + share),
         ["further" | "farther", ..] => (1, 1.0 + share),
-        ["of", "the", "distance"] => (3, share),
+        ["of", "the", "distance"] if percent.is_some() => (3, share),
         ["bigger" | "larger" | "tighter", ..] if zooms => (1, 1.0 + share),
         ["bigger" | "larger" | "tighter", ..] => (1, 1.0 / (1.0 + share)),
         ["smaller", ..] if zooms && share < 1.0 => (1, 1.0 - share),
         ["smaller", ..] if share < 1.0 => (1, 1.0 / (1.0 - share)),
+        _ if word_before(words, i, 1) == "by" => (0, changed_by(words, i, end, share)?),
+        _ if percent.is_none() => return None,
         _ => match [word_before(words, i, 1), word_before(words, i, 2)] {
             ["in", "zoom" | "zooms" | "zooming"] | ["zoom", _] => (0, if share > 1.0 { share } else { 1.0 + share }),
             ["in", "jump" | "push" | "dolly" | "punch" | "move" | "go" | "come"]
@@ -98,17 +124,55 @@ fn percent_more_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
             _ => return None,
         },
     };
-    Some((len + sign + more, factor))
+    (factor > 0.0).then_some((len + more, factor))
+}
+
+/// A percentage: number of words, and the share.
+fn percent_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
+    let (len, value) = cardinal_at(words, i).filter(|(_, value)| *value > 0.0)?;
+    let sign = match [0, 1].map(|k| word_at(words, i + len + k)) {
+        ["%" | "percent" | "pct", _] => 1,
+        ["per", "cent"] => 2,
+        _ => return None,
+    };
+    Some((len + sign, value / 100.0))
+}
+
+/// What is left of the distance where a clause says that it changes `by` a share of it: `closer by a third`, `cut the gap by half`.
+fn changed_by(words: &[Word], i: usize, end: usize, share: f64) -> Option<f64> {
+    let says = |list: &str| clause_back(words, i, 8).any(|word| is_listed(list, word));
+    let is_distance = says(DISTANCES);
+    if !ends_phrase(words, end) && !is_listed("on to toward towards", word_at(words, end)) {
+        return None;
+    }
+    if zooms_before(words, i) && !is_distance {
+        return if says("in") { Some(1.0 + share) } else { says("out").then_some(1.0 - share) };
+    }
+    let is_less =
+        says("closer nearer in tighter") || is_distance && says("cut reduce shrink shorten decrease lessen close");
+    let is_more =
+        says("farther further back away off out") || is_distance && says("increase lengthen stretch grow widen");
+    match (is_less, is_more) {
+        (true, false) => Some(1.0 - share),
+        (false, true) => Some(1.0 + share),
+        // `Then by half`, `distance by half`.
+        _ if word_before(words, i, 2) == "then" || is_distance => Some(1.0 - share),
+        _ => None,
+    }
 }
 
 /// `twice as close`, `half the distance`, `three times as far`, `2x`, `x2`.
 fn multiple_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
     let (len, times) = times_at(words, i)?;
     let rest = [0, 1, 2].map(|k| word_at(words, i + len + k));
+    // `Half closer` is no multiple.
+    if times < 1.0 && matches!(rest[0], "closer" | "nearer" | "farther" | "further" | "bigger" | "smaller") {
+        return None;
+    }
     let larger = if zooms_before(words, i) { times } else { 1.0 / times };
     let (more, value) = match rest {
         ["as", "far", "away" | "back" | "out"] => (3, times),
-        ["the" | "that" | "this", "distance", _]
+        ["the" | "that" | "this" | "your" | "our", "distance" | "gap", _]
         | ["as", "far", _]
         | ["farther" | "further", "away" | "back" | "out", _] => (2, times),
         ["farther" | "further" | "distance", _, _] => (1, times),
@@ -164,4 +228,41 @@ fn circles_before(words: &[Word], i: usize) -> bool {
     let is_circling =
         |word: &str| matches!(word, "around" | "round" | "orbit" | "orbits" | "circle" | "circles" | "circling");
     clause_back(words, i, 10).take_while(|word| *word != "and").any(is_circling)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::tokenizer::tokenize;
+
+    /// The first factor of a text.
+    fn factor(text: &str) -> String {
+        let words = tokenize(text);
+        let found = (0..words.len()).find_map(|i| factor_at(&words, i));
+        found.map(|(_, quantity)| format!("{:.2}", quantity.value)).unwrap_or_default()
+    }
+
+    #[test]
+    fn shares_of_a_distance_are_factors() {
+        assert_eq!(factor("get a third closer to the ladles"), "0.67");
+        assert_eq!(factor("go a quarter nearer"), "0.75");
+        assert_eq!(factor("halve the gap to the vase"), "0.50");
+        assert_eq!(factor("close two thirds of the distance"), "0.33");
+        assert_eq!(factor("two thirds of the distance"), "0.67");
+        assert_eq!(factor("back off by half again"), "1.50");
+        assert_eq!(factor("half again as far away"), "1.50");
+        assert_eq!(factor("come closer by a third"), "0.67");
+        assert_eq!(factor("go a third further away"), "1.33");
+        assert_eq!(factor("until the gap is a third of what it was"), "0.33");
+        assert_eq!(factor("half closer"), "0.50");
+        assert_eq!(factor("zoom in by a third on the vase"), "1.33");
+        assert_eq!(factor("twice as close"), "0.50");
+    }
+
+    #[test]
+    fn other_shares_are_none() {
+        assert_eq!(factor("the left third of the frame"), "");
+        assert_eq!(factor("stop half a metre closer"), "");
+        assert_eq!(factor("the second half again"), "");
+    }
 }

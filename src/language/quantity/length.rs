@@ -15,7 +15,10 @@ pub(super) fn length_at(words: &[Word], i: usize) -> Option<Found> {
         return Some(found(len, QuantityKind::Units, 0.1));
     }
     let (end, value) = bare_number(words, i)?;
+    // `Pose A + 0.3 along its forward axis`.
+    let is_offset = word_before(words, i, 1) == "+" && word_at(words, end) == "along";
     let is_length = is_named(words, i) && value <= 200.0
+        || is_offset
         || HEIGHTS.contains(&value) && word_at(words, i).contains('.') && is_height(words, i, end)
         || climbs(words, i, end) && value <= 200.0;
     is_length.then(|| found(end - i, QuantityKind::Units, value))

@@ -81,6 +81,8 @@ fn whole_height_at(words: &[Word], i: usize) -> Option<usize> {
 
 /// Whether a fraction ends its phrase in a sentence about the picture: `small in the picture, like a tenth`.
 fn is_alone(words: &[Word], i: usize, end: usize) -> bool {
-    matches!(word_at(words, end), "" | "." | "," | ";" | ")" | "and" | "then" | "!")
+    // `Three quarters of it`.
+    let end = end + usize::from(word_before(words, end, 1) == "of" && word_at(words, end) == "it");
+    matches!(word_at(words, end), "" | "." | "," | ";" | ")" | "and" | "then" | "!" | "when" | "at" | "by")
         && sentence_back(words, i, 24).any(|word| is_picture(word) || word.starts_with("fill"))
 }

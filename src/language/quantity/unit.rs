@@ -34,6 +34,9 @@ pub(super) fn unit_at(words: &[Word], i: usize) -> Option<(usize, QuantityKind, 
     if word_at(words, i) == "per" && word_at(words, i + 1) == "cent" {
         return Some((2, QuantityKind::Percent, 1.0));
     }
+    if matches!(word_at(words, i), "scene" | "world") && matches!(word_at(words, i + 1), "unit" | "units") {
+        return Some((2, QuantityKind::Units, 1.0));
+    }
     unit(word_at(words, i)).map(|(kind, scale)| (1, kind, scale))
 }
 

@@ -163,8 +163,14 @@ fn span_from(words: &[Word], start: usize, first: Instant) -> Option<(usize, Sta
     let is_time = [first.form, last.form].iter().any(|form| *form != InstantForm::Bare)
         || is_code
         || first.secs == 0.0
+        || is_written_as_code(word_at(words, start))
         || matches!(word_at(words, last.end), ":" | ")");
     (is_time && last.secs > first.secs).then_some((last.end, StampKind::Span(first.secs, last.secs)))
+}
+
+/// Whether a number has a leading zero, as those of clocks have: the `03` of `03-06`.
+fn is_written_as_code(number: &str) -> bool {
+    number.len() == 2 && number.starts_with('0')
 }
 
 /// `frames 0-48`, `fr 48 to 96`: the word after it, and the span.
@@ -325,6 +331,7 @@ mod tests {
         assert_eq!(kinds("t=0s wide of the mug. t=4s close on it"), codes);
         assert_eq!(kinds("T = 0 on the mug; T = 4 pan to the jar"), codes);
         assert_eq!(kinds("wide. t=4 to t=6 nothing moves")[0], StampKind::Span(4.0, 6.0));
+        assert_eq!(kinds("00-03 hold / 03-06 pan right"), [StampKind::Span(0.0, 3.0), StampKind::Span(3.0, 6.0)]);
         assert_eq!(kinds("a t 4 tube"), []);
         assert_eq!(kinds("at t = 4 only the mug is in shot"), []);
         assert_eq!(kinds("(1) t = 0-4 s orbit")[..], [StampKind::Number(1)]);

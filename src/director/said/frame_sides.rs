@@ -1,0 +1,84 @@
+//! Whose the side of the frame is: `float in on the guitar, plant always frame right` puts the plant there, and the guitar on the
+//! other side.
+
+use cinesplat_language::{Linked, is_listed};
+use cinesplat_operator::{FramePlace, Framing, Step};
+
+/// Words between a thing and the side of the frame that it is on.
+const BETWEEN: &str = "always is are stays stay kept keeps at on in to the camera frame screen picture always constantly throughout , \
+    over off";
+/// Words that make `left` and `right` sides of the frame, before them and behind them.
+const FRAME: &str = "frame camera screen picture";
+const SIDE: &str = "side third half edge of";
+const ALWAYS: &str = "always throughout constantly whole time";
+
+/// Moves a subject to the side of the frame that another thing leaves, where its step gives it the place of that thing.
+pub(crate) fn leave_sides_to_owners(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let Some(&[subject]) = step.end.subjects.first_chunk::<1>().filter(|_| step.end.subjects.len() == 1) else {
+            continue;
+        };
+        let owners: Vec<(u32, FramePlace)> = (0..words.len()).filter_map(|at| side_of(linked, &words, at)).collect();
+        let [(owner, side)] = owners[..] else { continue };
+        let is_kept = linked.expanded(&[owner]).iter().all(|id| step.keep.contains(id));
+        if linked.expanded(&[owner]).contains(&subject) || owner == subject || !is_kept && !step.keep.contains(&owner) {
+            continue;
+        }
+        if step.end.place.is_none_or(|place| place == side) {
+            step.end.place = Some(opposite(side));
+            if words.iter().any(|word| is_listed(ALWAYS, word)) && step.start == Framing::default() {
+                step.start = Framing { subjects: vec![subject], place: step.end.place, ..Framing::default() };
+            }
+        }
+    }
+}
+
+/// The thing at word `at`, with the side of the frame that the words behind it put it on.
+fn side_of(linked: &Linked, words: &[&str], at: usize) -> Option<(u32, FramePlace)> {
+    let id = linked.slot_at(words[at])?;
+    let num_between = words[at + 1..].iter().take(5).take_while(|word| is_listed(BETWEEN, word)).count();
+    let place = at + 1 + num_between;
+    let side = match *words.get(place)? {
+        "left" => FramePlace::AtLeft,
+        "right" => FramePlace::AtRight,
+        _ => return None,
+    };
+    let is_of_frame = is_listed(FRAME, words[place - 1])
+        || words.get(place + 1).is_some_and(|word| is_listed(SIDE, word))
+            && words[place..].iter().take(5).any(|word| is_listed(FRAME, word));
+    is_of_frame.then_some((id, side))
+}
+
+fn opposite(side: FramePlace) -> FramePlace {
+    if side == FramePlace::AtLeft { FramePlace::AtRight } else { FramePlace::AtLeft }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::{about, linked};
+    use super::*;
+    use cinesplat_trajectory::Move;
+
+    fn placed(text: &str) -> (Option<FramePlace>, Vec<u32>) {
+        let mut step = about(Move::PushIn, &[5], [0, text.len()]);
+        step.end.place = Some(FramePlace::AtRight);
+        step.keep = vec![7];
+        leave_sides_to_owners(&linked(text), std::slice::from_mut(&mut step));
+        (step.end.place, step.start.subjects)
+    }
+
+    #[test]
+    fn a_side_of_the_frame_is_that_of_the_thing_before_it() {
+        let left = Some(FramePlace::AtLeft);
+        assert_eq!(placed("float in towards <obj-0> , <obj-1> always frame right"), (left, vec![5]));
+        assert_eq!(placed("push in on <obj-0> , <obj-1> on the right of the frame"), (left, vec![]));
+        let mut step = about(Move::PushIn, &[5], [0, 41]);
+        step.keep = vec![7];
+        leave_sides_to_owners(&linked("push in on <obj-0> , <obj-1> frame left .."), std::slice::from_mut(&mut step));
+        assert_eq!(step.end.place, Some(FramePlace::AtRight));
+        let right = Some(FramePlace::AtRight);
+        assert_eq!(placed("push in on <obj-0> frame right , <obj-1> in view"), (right, vec![]));
+        assert_eq!(placed("push in on <obj-0> , past <obj-1> to the right"), (right, vec![]));
+    }
+}
