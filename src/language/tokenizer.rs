@@ -266,3 +266,18 @@ fn unaccented(c: char) -> char {
         _ => c,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_pictogram_in_the_place_of_a_noun_is_one() {
+        let words = |text: &str| tokenize(text).into_iter().map(|word| word.text).collect::<Vec<_>>().join(" ");
+        assert_eq!(words("🎸 ➡️ 🌴 → 💀 in that order"), "guitar , palm , skull in that order");
+        assert_eq!(words("🎸 to 💀"), "guitar to skull");
+        assert_eq!(words("pan from the 🪑 to the 📺, slowly"), "pan from the chair to the television , slowly");
+        assert_eq!(words("🎬 push in on the guitar 🎸🔥!"), "push in on the guitar !");
+        assert_eq!(words("🎸 push in on the guitar"), "push in on the guitar");
+    }
+}

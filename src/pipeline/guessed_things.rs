@@ -39,6 +39,8 @@ const STANDS_FRAC: f64 = 0.07;
 /// Most alike directions of things along one wall, and the distance of their planes, of the size of the scan.
 const SAME_WALL_COS: f64 = 0.9;
 const SAME_WALL_FRAC: f64 = 0.12;
+/// Words between two nouns.
+const APART: &str = "to from and of on in at with past over into , . ; :";
 /// Words before a noun that may be its color.
 const COLORS_BEFORE: usize = 5;
 /// Most things of one picture.
@@ -64,6 +66,9 @@ pub(super) fn named(prompt: &str, objects: &ObjectSet, up: DVec3) -> Option<Name
             continue;
         }
         let before = &words[at.saturating_sub(COLORS_BEFORE)..at];
+        // `From the blue cupboards to the teapots`: the color is that of the cupboards.
+        let own = before.iter().rev().take_while(|word| !is_listed(APART, &word.text)).count();
+        let before = &before[before.len() - own..];
         let things: Vec<&Object> = match class {
             0 => scan.counter().into_iter().collect(),
             1 => scan.shelves(),
@@ -399,7 +404,7 @@ mod tests {
         assert_eq!(of("the armchair"), [3]);
         assert_eq!(of("the cabinet"), [1]);
         assert_eq!(of("the vase"), [6]);
-        assert_eq!(of("the giraffe"), Vec::<u32>::new());
+        assert_eq!(of("the anchor"), Vec::<u32>::new());
     }
 
     #[test]

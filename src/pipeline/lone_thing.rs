@@ -8,7 +8,7 @@ use std::cmp::Reverse;
 
 use super::error::PipelineError;
 use super::interpreter::names;
-use super::said_parts;
+use super::said_parts::{self, HEAD};
 use cinesplat_director::{Director, Places};
 use cinesplat_language::{
     Linked, Relation, Things, Word, is_listed, own_part_at, part_of, said_parts as said_parts_of, tokenize,
@@ -21,8 +21,7 @@ use cinesplat_trajectory::Move;
 /// People whom the list of kinds of things lacks.
 const PEOPLE: &str = "biker rider motorcyclist cyclist photographer dancer model player driver runner athlete mannequin singer \
     musician fellow dude gentleman chap monk bride groom fighter boxer skater surfer hiker farmer sailor statue sculpture";
-/// The part that only people have, and what such a thing is called where the words do not say it.
-pub(super) const HEAD: &str = "head";
+/// What a thing with a head is called where the words do not say it.
 const PERSON: &str = "person";
 /// What a thing stands on: rarely what a scan is about.
 const GROUNDS: [&str; 10] =

@@ -11,8 +11,9 @@ use cinesplat_scene::Scene;
 use glam::DVec3;
 
 use super::error::PipelineError;
-use super::lone_thing::HEAD;
 
+/// The part that only people have.
+pub(super) const HEAD: &str = "head";
 /// Depth of a part of the front or the back, and reach of one at a side, as shares of the thing.
 const FRONT: [f64; 2] = [0.4, 1.0];
 const BACK: [f64; 2] = [0.0, 0.6];

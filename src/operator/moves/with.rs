@@ -234,6 +234,8 @@ fn added(context: &StepContext, second: Move, state: &CameraState, aim: DVec3, s
     let rises =
         matches!(context.step.movement, Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown);
     let back = if rises { frame.horizontal(away) } else { away };
+    // Lower down, a camera is nearer.
+    let away_by = if rises { 2.2 } else { 1.4 };
     if let (Move::PushIn | Move::PullOut, Some(factor)) = (second, factor_beside_circle(context.step)) {
         return moved(state, away * ((factor - 1.0) * share));
     }
@@ -245,7 +247,7 @@ fn added(context: &StepContext, second: Move, state: &CameraState, aim: DVec3, s
         Move::RollCw => turn(0.0, 0.0, degrees(15.0)),
         Move::RollCcw => turn(0.0, 0.0, -degrees(15.0)),
         Move::PushIn | Move::DollyZoomIn => shift(-back * reach),
-        Move::PullOut | Move::DollyZoomOut => shift(back * reach * 1.4),
+        Move::PullOut | Move::DollyZoomOut => shift(back * reach * away_by),
         Move::TruckLeft => shift(-state.pose.right() * distance * reach),
         Move::TruckRight => shift(state.pose.right() * distance * reach),
         Move::PedestalUp | Move::CraneUp => shift(frame.up * distance * reach),
