@@ -216,8 +216,8 @@ fn before_wall(world: &World, target: &Target, view: CameraState) -> CameraState
     if free > LEAST_SPACE * start && free < distance { moved(&view, away * (free - distance)) } else { view }
 }
 
-/// The view raised to the floor of a room, or to the foot of a lone thing, where it would lie under it: as low as a camera can lie, nearer for the
-/// angle of the shot, with a wider lens for the same picture.
+/// The view raised to the floor of a room, or to the foot of a lone thing, where it would lie under it: as low as a camera can
+/// lie, nearer for the angle of the shot, with a wider lens for the same picture.
 fn above_floor(world: &World, target: &Target, angle: Option<ShotAngle>, view: CameraState) -> CameraState {
     if world.sunk_frac(view.pose.position) <= 0.0 {
         return view;
