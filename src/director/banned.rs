@@ -4,7 +4,7 @@
 
 use cinesplat_language::{Mention, NamedObject, Relation, Things, is_listed, tokenize};
 
-use crate::explained::insert_mention;
+use crate::explained::{is_known, replace_mentions};
 use crate::names::FoundMention;
 
 /// Words behind a thing by which it is nowhere.
@@ -17,21 +17,14 @@ pub(crate) fn name_banned(prompt: &str, objects: &[NamedObject], found: &mut Vec
     let things = Things::embedded();
     for at in (1..words.len()).filter(|at| text(at - 1) == "no" && words[*at].is_alphabetic()) {
         let is_nowhere = is_listed(NOWHERE, text(at + 1)) || text(at + 1) == "at" && text(at + 2) == "all";
-        let overlaps = |other: &FoundMention| {
-            other.mention.bytes[0] < words[at].span[1] && words[at].span[0] < other.mention.bytes[1]
-        };
-        if !is_nowhere || found.iter().any(|other| overlaps(other) && !other.mention.ids.is_empty()) {
+        if !is_nowhere || is_known(found, words[at].span) {
             continue;
         }
-        let is_meant = |object: &&NamedObject| {
-            let related = things.related(&things.kinds_of(&object.label));
-            let relations = related.get(&words[at].stem).copied().unwrap_or_default();
-            [Relation::Same, Relation::Broader, Relation::Part].iter().any(|relation| relation.is_in(relations))
-        };
+        let named_by = [Relation::Same, Relation::Broader, Relation::Part];
+        let is_meant = |object: &&NamedObject| things.is_related(&object.label, &words[at].stem, &named_by);
         let mut meant = objects.iter().filter(is_meant);
         if let (Some(object), None) = (meant.next(), meant.next()) {
-            found.retain(|other| !overlaps(other));
-            insert_mention(found, Mention { bytes: words[at].span, ids: vec![object.id] });
+            replace_mentions(found, Mention { bytes: words[at].span, ids: vec![object.id] });
         }
     }
 }
@@ -39,12 +32,11 @@ pub(crate) fn name_banned(prompt: &str, objects: &[NamedObject], found: &mut Vec
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::said::fixture::labelled;
 
     #[test]
     fn a_thing_that_is_to_be_nowhere_is_named() {
-        let labels = ["electric guitar", "potted palm", "golden skull"];
-        let objects: Vec<NamedObject> =
-            (1..).zip(labels).map(|(id, label)| NamedObject { id, label: label.to_owned() }).collect();
+        let objects = labelled(&["electric guitar", "potted palm", "golden skull"]);
         let named = |prompt: &str| {
             let mut found = Vec::new();
             name_banned(prompt, &objects, &mut found);

@@ -197,13 +197,20 @@ fn bearing(prompt: &str, objects: &[NamedObject], found: &[FoundMention], nth: u
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::said::fixture::labelled;
     use cinesplat_language::Mention;
 
     fn pointed(prompt: &str, mentions: &[(&str, u32)]) -> Vec<u32> {
-        let labels =
-            ["yellow mug", "wine glass", "tool wall", "orange toolbox", "navy bed", "bench", "easel", "picture 1"];
-        let objects: Vec<NamedObject> =
-            (1..).zip(labels).map(|(id, label)| NamedObject { id, label: label.to_owned() }).collect();
+        let objects = labelled(&[
+            "yellow mug",
+            "wine glass",
+            "tool wall",
+            "orange toolbox",
+            "navy bed",
+            "bench",
+            "easel",
+            "picture 1",
+        ]);
         let mention = |(words, id): &(&str, u32)| {
             let start = prompt.find(words).unwrap();
             let mention = Mention { bytes: [start, start + words.len()], ids: vec![*id] };

@@ -211,9 +211,24 @@ pub(crate) fn insert_mention(found: &mut Vec<FoundMention>, mention: Mention) {
     found.insert(place, FoundMention { mention, probability: 1.0, nearest: Vec::new() });
 }
 
+/// Puts such a mention in the place of those that share words with it.
+pub(crate) fn replace_mentions(found: &mut Vec<FoundMention>, mention: Mention) {
+    found.retain(|other| !shares_bytes(other, mention.bytes));
+    insert_mention(found, mention);
+}
+
+/// Whether a mention of things of the scene has some of these bytes of the prompt.
+pub(crate) fn is_known(found: &[FoundMention], bytes: [usize; 2]) -> bool {
+    found.iter().any(|found| shares_bytes(found, bytes) && !found.mention.ids.is_empty())
+}
+
+fn shares_bytes(found: &FoundMention, [from, to]: [usize; 2]) -> bool {
+    found.mention.bytes[0] < to && from < found.mention.bytes[1]
+}
+
 /// Whether a mention has some of these bytes of the prompt.
-pub(crate) fn is_linked(found: &[FoundMention], [from, to]: [usize; 2]) -> bool {
-    found.iter().any(|found| found.mention.bytes[0] < to && from < found.mention.bytes[1])
+pub(crate) fn is_linked(found: &[FoundMention], bytes: [usize; 2]) -> bool {
+    found.iter().any(|found| shares_bytes(found, bytes))
 }
 
 /// The words of a mention.

@@ -4,7 +4,7 @@
 
 use cinesplat_language::{Mention, NamedObject, Word, is_listed, tokenize};
 
-use crate::explained::{head, insert_mention};
+use crate::explained::{head, is_known, replace_mentions};
 use crate::names::FoundMention;
 
 /// What hangs on walls, and what the scene may call it.
@@ -40,12 +40,10 @@ pub(crate) fn name_pictures(prompt: &str, objects: &[NamedObject], found: &mut V
         let looks = (article + 1..at).any(|word| is_listed(LOOKS, text(word)));
         let is_placed = is_listed(PLACES, text(at + 1)) && !matches!(text(at + 3), "screen" | "camera" | "end");
         let span = [words[article].span[0], words[at].span[1]];
-        let overlaps = |found: &FoundMention| found.mention.bytes[0] < span[1] && span[0] < found.mention.bytes[1];
         // What is taken for something that the scene lacks is none of its things.
-        let is_linked = found.iter().any(|found| overlaps(found) && !found.mention.ids.is_empty());
-        if looks && (is_placed || !words.get(at + 1).is_some_and(Word::is_alphabetic)) && !is_linked {
-            found.retain(|found| !overlaps(found));
-            insert_mention(found, Mention { bytes: span, ids: ids.clone() });
+        let is_known = is_known(found, span);
+        if looks && (is_placed || !words.get(at + 1).is_some_and(Word::is_alphabetic)) && !is_known {
+            replace_mentions(found, Mention { bytes: span, ids: ids.clone() });
         }
     }
 }
@@ -53,12 +51,11 @@ pub(crate) fn name_pictures(prompt: &str, objects: &[NamedObject], found: &mut V
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::said::fixture::labelled;
 
     #[test]
     fn a_picture_on_a_wall_is_a_thing() {
-        let labels = ["picture 1", "sofa", "picture 2"];
-        let objects: Vec<NamedObject> =
-            (1..).zip(labels).map(|(id, label)| NamedObject { id, label: label.to_owned() }).collect();
+        let objects = labelled(&["picture 1", "sofa", "picture 2"]);
         let named = |prompt: &str| {
             let mut found = Vec::new();
             name_pictures(prompt, &objects, &mut found);

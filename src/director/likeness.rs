@@ -54,12 +54,11 @@ fn liked(objects: &[NamedObject], look: &Mention, thing: &Mention, words: &str) 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::said::fixture::labelled;
 
     #[test]
     fn what_a_thing_looks_like_tells_it_from_others() {
-        let labels = ["wooden knot sculpture", "white stacked stone sculpture", "white door"];
-        let objects: Vec<NamedObject> =
-            (1..).zip(labels).map(|(id, label)| NamedObject { id, label: label.to_owned() }).collect();
+        let objects = labelled(&["wooden knot sculpture", "white stacked stone sculpture", "white door"]);
         let joined = |prompt: &str, mentions: [(&str, u32); 2]| {
             let mention = |(words, id): (&str, u32)| {
                 let start = prompt.find(words).unwrap();

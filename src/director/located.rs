@@ -135,6 +135,7 @@ fn has_part(
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::said::fixture::labelled;
 
     #[test]
     fn places_only_locate_things() {
@@ -150,9 +151,7 @@ mod tests {
 
     #[test]
     fn a_part_of_a_thing_belongs_to_it() {
-        let labels = ["black plate", "yellow mug"];
-        let objects: Vec<NamedObject> =
-            (1..).zip(labels).map(|(id, label)| NamedObject { id, label: label.to_owned() }).collect();
+        let objects = labelled(&["black plate", "yellow mug"]);
         let num = |prompt: &str, mentions: [&str; 2]| {
             let mention = |(id, words): (u32, &str)| {
                 let start = prompt.find(words).unwrap();

@@ -6,7 +6,7 @@
 
 use cinesplat_language::{Mention, NamedObject, Word, is_listed, tokenize};
 
-use crate::explained::{insert_mention, is_number, said};
+use crate::explained::{is_number, replace_mentions, said};
 use crate::names::FoundMention;
 use crate::placed::{Flank, Places, kind_of, outermost, told_flank};
 
@@ -134,10 +134,9 @@ pub(crate) fn name_pairs(
         if let [id] = ids[..] {
             (own.last, own.is_told) = (Some(id), true);
         }
-        found.retain(|found| found.mention.bytes[1] <= bytes[0] || found.mention.bytes[0] >= bytes[1]);
         let mut members = ids;
         members.sort_unstable();
-        insert_mention(found, Mention { bytes, ids: members });
+        replace_mentions(found, Mention { bytes, ids: members });
         at += len - 1;
     }
     let is_blank = |at: usize| blanks.iter().any(|[from, to]| (*from..*to).contains(&at));

@@ -50,12 +50,11 @@ pub(crate) fn point_to_said(prompt: &str, objects: &[NamedObject], found: &mut [
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::said::fixture::labelled;
     use cinesplat_language::Mention;
 
     fn pointed(prompt: &str, mentions: &[(&str, u32)]) -> Vec<u32> {
-        let labels = ["orange armchair", "blue armchair", "table lamp 1", "table lamp 2", "sofa"];
-        let objects: Vec<NamedObject> =
-            (1..).zip(labels).map(|(id, label)| NamedObject { id, label: label.to_owned() }).collect();
+        let objects = labelled(&["orange armchair", "blue armchair", "table lamp 1", "table lamp 2", "sofa"]);
         let mut from = 0;
         let mut mention = |(words, id): &(&str, u32)| {
             let start = from + prompt[from..].find(words).unwrap();

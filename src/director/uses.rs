@@ -3,7 +3,7 @@
 
 use cinesplat_language::{Mention, NamedObject, Relation, Things, VerbForm, Word, inflect, is_listed, stem, tokenize};
 
-use crate::explained::insert_mention;
+use crate::explained::replace_mentions;
 use crate::names::FoundMention;
 
 /// What people do with things, and the kinds of things, the likeliest first.
@@ -74,8 +74,7 @@ pub(crate) fn name_by_uses(prompt: &str, objects: &[NamedObject], found: &mut Ve
         let is_before = |at: &usize| is_listed(DETERMINERS, &words[*at].text);
         let first = noun.checked_sub(1).filter(is_before).unwrap_or(noun);
         let bytes = [words[first].span[0], words[end - 1].span[1]];
-        found.retain(|other| other.mention.bytes[1] <= bytes[0] || bytes[1] <= other.mention.bytes[0]);
-        insert_mention(found, Mention { bytes, ids: vec![id] });
+        replace_mentions(found, Mention { bytes, ids: vec![id] });
     }
 }
 
@@ -124,9 +123,8 @@ fn only_of_kind(objects: &[NamedObject], kind: &str) -> Option<u32> {
     let wanted: Vec<String> = tokenize(kind).into_iter().map(|word| word.stem).collect();
     let is_of_kind = |object: &&NamedObject| {
         let stems: Vec<String> = tokenize(&object.label).into_iter().map(|word| word.stem).collect();
-        let related = things.related(&things.kinds_of(&object.label));
         let is_named = stems.windows(wanted.len()).any(|own| own == wanted);
-        is_named || related.get(&wanted.join(" ")).is_some_and(|relations| Relation::Same.is_in(*relations))
+        is_named || things.is_related(&object.label, &wanted.join(" "), &[Relation::Same])
     };
     let mut of_kind = objects.iter().filter(is_of_kind);
     let first = of_kind.next()?;
@@ -136,12 +134,11 @@ fn only_of_kind(objects: &[NamedObject], kind: &str) -> Option<u32> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::said::fixture::labelled;
 
     #[test]
     fn a_thing_is_named_by_what_people_do_with_it() {
-        let labels = ["red teapot", "white armchair", "knife rack", "microwave", "teal base cabinet"];
-        let objects: Vec<NamedObject> =
-            (1..).zip(labels).map(|(id, label)| NamedObject { id, label: label.to_owned() }).collect();
+        let objects = labelled(&["red teapot", "white armchair", "knife rack", "microwave", "teal base cabinet"]);
         let named = |prompt: &str| {
             let mut found = Vec::new();
             name_by_uses(prompt, &objects, &mut found);

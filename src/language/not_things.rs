@@ -72,9 +72,7 @@ fn is_floor(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -
     let names: Vec<&Word> = words[first..end].iter().filter(|word| word.text != "the").collect();
     let is_one = names.len() == 1 && is_listed(FLOORS, &names[0].stem);
     let is_label = |object: &NamedObject| {
-        let things = Things::embedded();
-        let related = things.related(&things.kinds_of(&object.label));
-        related.get(&names[0].stem).is_some_and(|relations| Relation::Same.is_in(*relations))
+        Things::embedded().is_related(&object.label, &names[0].stem, &[Relation::Same])
             || tokenize(&object.label).iter().any(|word| word.stem == names[0].stem)
     };
     let mut before = words[..first].iter().rev().skip_while(|word| is_listed(BESIDE_FLOOR, &word.text));

@@ -66,17 +66,11 @@ const NAMES: [(&str, &str); 62] = [
     ("🌍🌎🌏", "globe"),
 ];
 /// Words and marks behind which, or before which, a pictogram is a name and no ornament.
-const BEFORE: &str = "the a an this that to on onto at of from in into towards toward past around round over behind above below \
+pub(super) const BEFORE: &str = "the a an this that to on onto at of from in into towards toward past around round over behind above below \
     under between then and with by , :";
-const BEHIND: &str = "to then and past , and towards into";
+pub(super) const BEHIND: &str = "to then and past , and towards into";
 
 /// The word that a pictogram stands for.
 pub(super) fn name_of(pictogram: char) -> Option<&'static str> {
     NAMES.iter().find(|(marks, _)| marks.contains(pictogram)).map(|(_, name)| *name)
-}
-
-/// Whether a pictogram between two words is a name: `from the 🎸 to the 💀`, but not `push in on the guitar 🎸`.
-pub(super) fn is_name(before: Option<&str>, behind: &str) -> bool {
-    let is_in = |list: &str, word: &str| list.split_ascii_whitespace().any(|known| known == word);
-    before.map_or_else(|| is_in(BEHIND, behind), |word| is_in(BEFORE, word))
 }

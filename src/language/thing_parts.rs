@@ -161,7 +161,7 @@ pub fn part_of(words: &str, label: &str) -> Result<Option<PartPlace>, LanguageEr
     // `The white seat` is all of a white armchair.
     let (kind, looks) = label.split_last().map_or((None, &label[..]), |(kind, looks)| (Some(kind), looks));
     let is_look = |word: &Word| looks.iter().any(|look| look.text == word.text) && !is_listed(BEFORE, &word.text);
-    if kind.is_some_and(|kind| is_kind(name, &kind.text)) && before.iter().any(is_look) {
+    if before.iter().any(is_look) && kind.is_some_and(|kind| is_kind(name, &kind.text)) {
         return Ok(None);
     }
     let says_label = before.iter().all(|word| is_listed(BEFORE, &word.text) || is_label(&word.text));
@@ -170,11 +170,8 @@ pub fn part_of(words: &str, label: &str) -> Result<Option<PartPlace>, LanguageEr
 
 /// Whether a name stands for things of a kind as well: `seat` for an armchair.
 fn is_kind(name: &[Word], kind: &str) -> bool {
-    let things = Things::embedded();
-    let related = things.related(&things.kinds_of(kind));
     let stems: Vec<&str> = name.iter().map(|word| word.stem.as_str()).collect();
-    let relations = related.get(&stems.join(" ")).copied().unwrap_or_default();
-    Relation::Same.is_in(relations) || Relation::Broader.is_in(relations)
+    Things::embedded().is_related(kind, &stems.join(" "), &[Relation::Same, Relation::Broader])
 }
 
 /// The parts of a thing labelled `label` that a prompt names and whose heights are known, in the order of the prompt. Where the

@@ -157,6 +157,12 @@ impl Things {
         starts.find_map(|at| self.by_name.get(&word[at..]))
     }
 
+    /// Whether a phrase (stems, separated by spaces) has one of some relations to what a label names.
+    pub fn is_related(&self, label: &str, phrase: &str, relations: &[Relation]) -> bool {
+        let related = self.related(&self.kinds_of(label));
+        related.get(phrase).is_some_and(|set| relations.iter().any(|relation| relation.is_in(*set)))
+    }
+
     /// All phrases (stems, separated by spaces) that are related to kinds, each with its set of [`Relation`]s.
     pub fn related(&self, kinds: &[usize]) -> BTreeMap<String, u8> {
         let mut related: BTreeMap<String, u8> = BTreeMap::new();

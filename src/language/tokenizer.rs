@@ -6,7 +6,11 @@
 //! a translation is a word (`yaw -30` = `yaw minus 30`). One pass over the text.
 
 use super::inflection::stem;
-use super::pictograms::{is_name, name_of};
+use super::pictograms::{BEFORE, BEHIND, name_of};
+
+/// Turns about an axis and ways along one, whose amount may have a sign: `yaw -30 degrees`.
+pub(crate) const SIGNED: &str =
+    "yaw pitch roll pan tilt heading azimuth elevation translate translation displacement displace offset";
 
 /// One word and the bytes of the prompt that it was made from.
 #[derive(Debug, Clone, PartialEq, Eq)]
@@ -144,10 +148,12 @@ impl Tokenizer {
         self.words.push(Word { text: text.to_owned(), stem: String::new(), span, after_hyphen: false });
     }
 
-    /// Appends the name of a pictogram that stands where a noun does; `behind` is the word that follows.
+    /// Appends the name of a pictogram that stands where a noun does (`from the 🎸 to the 💀`, but not `push in on the guitar 🎸`);
+    /// `behind` is the word that follows.
     fn push_pictogram(&mut self, name: &str, span: [usize; 2], behind: &str) {
         self.end_word();
-        if is_name(self.words.last().map(|word| word.text.as_str()), behind) {
+        let before = self.words.last();
+        if before.map_or_else(|| is_listed(BEHIND, behind), |word| is_listed(BEFORE, &word.text)) {
             self.push_mark(name, span);
         }
     }
@@ -204,8 +210,6 @@ impl Tokenizer {
 
     /// Whether the last word is a turn about an axis, or a way along one.
     fn takes_sign(&self) -> bool {
-        const SIGNED: &str =
-            "yaw pitch roll pan tilt heading azimuth elevation translate translation displacement displace offset";
         let mut back = self.words.iter().rev().skip_while(|word| matches!(word.text.as_str(), "of" | "by"));
         back.next().is_some_and(|word| is_listed(SIGNED, &word.text))
     }

@@ -3,7 +3,7 @@
 use cinesplat_trajectory::{Move, ShotAngle};
 use glam::DVec3;
 
-use crate::program::{Amount, Framing, Look, Pass, Program, Step, Via};
+use crate::program::{Amount, Framing, Look, Motion, Pass, Program, Step, Via};
 use crate::view::LYING_RADII;
 use crate::world::World;
 
@@ -98,7 +98,7 @@ const ABOVE_TABLE_RADII: f64 = 1.6;
 
 /// Circles a lone thing where a step rises or sinks `while turning`: beside it there is nothing to turn to.
 fn circle_lone_thing(step: &mut Step) {
-    let rises = matches!(step.movement, Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown);
+    let rises = Motion::of(step.movement) == Some(Motion::Rise);
     let shows = !step.start.subjects.is_empty() || !step.end.subjects.is_empty();
     for second in step.with.iter_mut().filter(|_| rises && shows) {
         // A camera that goes round to its left turns to the right.

@@ -153,7 +153,7 @@ impl<'a> Scan<'a> {
         let words = tokenize(name);
         // `The owl's eyes`.
         let owner: Vec<Word> = words.iter().take_while(|word| word.text != "'s").cloned().collect();
-        if owner.last().is_some_and(is_living) && self.shelved().len() < FEWEST_SHELVED {
+        if owner.last().is_some_and(is_living) && !self.has_shelves() {
             return Some(self.largest());
         }
         let nouns: Vec<&Word> = words.iter().take_while(|word| word.text != "of" && word.text != "on").collect();
@@ -199,20 +199,27 @@ impl<'a> Scan<'a> {
         (!ids.is_empty()).then_some(ids)
     }
 
+    /// Whether so much stands on shelves that the scan is a room and not in pieces.
+    fn has_shelves(&self) -> bool {
+        self.shelved().len() >= FEWEST_SHELVED
+    }
+
     /// The thing of a room without shelves that looks most like what a noun means; `None` where none does.
     fn looks_like(&self, noun: &Word) -> Option<u32> {
+        if self.has_shelves() {
+            return None;
+        }
         let is = |list: &str| is_listed(list, &noun.stem) || is_listed(list, &noun.text);
         let has = |object: &Object, list: &str| object.label.split(' ').any(|word| is_listed(list, word));
         let is_like = |object: &Object| match () {
-            () if is(SCREENS) => has(object, "panel") && has(object, DARK),
-            () if is(DRAPES) => has(object, "panel") && !has(object, DARK),
+            () if is(SCREENS) => has_word(&object.label, "panel") && has(object, DARK),
+            () if is(DRAPES) => has_word(&object.label, "panel") && !has(object, DARK),
             () if is(SEATS) => {
-                has(object, "object") && !has(object, "tall flat small") && {
-                    self.height_frac(self.middle(object)) < SEAT_FRAC
-                }
+                let is_low = self.height_frac(self.middle(object)) < SEAT_FRAC;
+                is_low && has_word(&object.label, "object") && !has(object, "tall flat small")
             }
-            () if is(CHESTS) => has(object, "box"),
-            () if is(SMALL) => has(object, "object box") && !has(object, "large"),
+            () if is(CHESTS) => has_word(&object.label, "box"),
+            () if is(SMALL) => has(object, "object box") && !has_word(&object.label, "large"),
             () => false,
         };
         let is_root = |object: &&Object| object.parent.is_none() && !is_bound(&object.label);
@@ -222,7 +229,7 @@ impl<'a> Scan<'a> {
         } else {
             alike.max_by_key(|object| object.num_gaussians)
         };
-        found.filter(|_| self.shelved().len() < FEWEST_SHELVED).map(|object| object.id)
+        found.map(|object| object.id)
     }
 
     /// The largest things, which are the pieces of what a scan of one thing shows.
@@ -262,7 +269,7 @@ impl<'a> Scan<'a> {
         };
         let mut fronts: Vec<&Object> = self.objects.iter().filter(is_front).collect();
         // Where nothing stands on shelves there is no wall of cupboards, and panels are curtains.
-        if self.shelved().len() < FEWEST_SHELVED && fronts.iter().any(|front| has_word(&front.label, "box")) {
+        if !self.has_shelves() && fronts.iter().any(|front| has_word(&front.label, "box")) {
             fronts.retain(|front| has_word(&front.label, "box"));
         }
         fronts.sort_by_key(|object| std::cmp::Reverse(object.num_gaussians));

@@ -228,11 +228,7 @@ fn stands_for_all(words: &[Word], name: &str) -> bool {
 fn is_part(name: &str, objects: &ObjectSet) -> Result<bool, PipelineError> {
     let stems: Vec<String> = tokenize(name).into_iter().map(|word| word.stem).collect();
     let phrase = stems.join(" ");
-    let things = Things::embedded();
-    let is_named = |object: &Object| {
-        let related = things.related(&things.kinds_of(&object.label));
-        related.get(&phrase).is_some_and(|relations| Relation::Same.is_in(*relations))
-    };
+    let is_named = |object: &Object| Things::embedded().is_related(&object.label, &phrase, &[Relation::Same]);
     let is_view = is_listed(VIEWS, &phrase);
     let found = objects.objects.iter().filter(|object| object.parent.is_some()).any(is_named);
     let is_whole = stems.last().is_some_and(|head| is_listed(WHOLES, head));

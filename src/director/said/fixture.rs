@@ -1,6 +1,6 @@
 //! Linked prompts for unit tests.
 
-use cinesplat_language::Linked;
+use cinesplat_language::{Linked, NamedObject};
 use cinesplat_operator::{Framing, Program, Step};
 use cinesplat_trajectory::Move;
 
@@ -11,6 +11,11 @@ pub(crate) fn linked(text: &str) -> Linked {
     let words = text.split(' ');
     let spans = words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1) + word.len()]));
     Linked { tokens_text: text.to_owned(), spans: spans.collect(), slots: vec![5, 7], ..Linked::default() }
+}
+
+/// Objects 1, 2, .. with some labels.
+pub(crate) fn labelled(labels: &[&str]) -> Vec<NamedObject> {
+    (1..).zip(labels).map(|(id, label)| NamedObject { id, label: (*label).to_owned() }).collect()
 }
 
 /// A reading of some steps, without cameras and certainties.

@@ -4,14 +4,13 @@ use super::context::{back, is_joined, word_before};
 use super::kind::QuantityKind;
 use super::unit::unit;
 use crate::numerals::{Numeral, NumeralForm};
-use crate::tokenizer::{Word, is_listed, word_at};
+use crate::tokenizer::{SIGNED, Word, is_listed, word_at};
 
 /// Longest focal length that is read, in millimeters. Beyond it `mm` is a length.
 const MAX_FOCAL_MM: f64 = 1000.0;
 
-/// Turns and ways whose amount may have a sign: `yaw minus 30 degrees`.
-const SIGNED: &str =
-    "yaw pitch roll pan tilt heading azimuth elevation translate translation displacement displace offset of by a";
+/// Words between a turn or a way and the sign of its amount: `an offset of minus 2 units`, `pose A minus 2 units`.
+const BEFORE_SIGN: &str = "of by a";
 
 /// Whether a number and the word after it only look like a measure: `a second orbit`, `an S`, `the 80s`, `1880s`.
 pub(super) fn is_no_measure(words: &[Word], i: usize, unit_idx: usize, number: Numeral) -> bool {
@@ -20,7 +19,7 @@ pub(super) fn is_no_measure(words: &[Word], i: usize, unit_idx: usize, number: N
     let letter = is_article && unit_word.len() <= 2;
     let ordinal = is_article && unit_word == "second" && !second_is_time(words, i, unit_idx + 1);
     let before = word_before(words, i, 2);
-    let is_signed = before == "plus" || is_listed(SIGNED, before);
+    let is_signed = before == "plus" || is_listed(SIGNED, before) || is_listed(BEFORE_SIGN, before);
     let is_negative = matches!(word_before(words, i, 1), "minus" | "negative") && !is_signed;
     let is_label = unit_word == "beat" && word_before(words, i, 1) == "beat";
     let of_each =

@@ -9,7 +9,7 @@ use crate::cost::evenly_spaced;
 use crate::framing::Target;
 use crate::motion::MotionSegment;
 use crate::pacing::natural_secs;
-use crate::program::{Amount, Step};
+use crate::program::{Amount, Motion, Step};
 use crate::view::{aimed, lerp, moved, with_fov};
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::{CameraState, Move};
@@ -231,8 +231,7 @@ fn added(context: &StepContext, second: Move, state: &CameraState, aim: DVec3, s
         aimed(context.world, &moved(state, place - state.pose.position), aim)
     };
     // A crane or pedestal alone decides on the height.
-    let rises =
-        matches!(context.step.movement, Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown);
+    let rises = Motion::of(context.step.movement) == Some(Motion::Rise);
     let back = if rises { frame.horizontal(away) } else { away };
     // Lower down, a camera is nearer.
     let away_by = if rises { 2.2 } else { 1.4 };
