@@ -1,8 +1,10 @@
-//! Shared by several areas: the optional data folder, the line that reports a skipped test, a shot over keys.
+//! Shared by several areas: the optional data folder, the corpus, the line that reports a skipped test, a shot over keys.
 
 use std::io::Write;
 use std::path::{Path, PathBuf};
+use std::sync::LazyLock;
 
+use cinesplat::training::corpus::{Writer, read_folder};
 use cinesplat::trajectory::{Keyframe, SceneRef, Shot};
 use glam::DVec3;
 
@@ -19,6 +21,13 @@ pub fn shared(relative: &str) -> Option<PathBuf> {
     let path = folder.join(relative);
     assert!(path.exists(), "{} is missing", path.display());
     Some(path)
+}
+
+/// The writers of the corpus, read once: it takes seconds.
+pub fn corpus() -> &'static [Writer] {
+    static CORPUS: LazyLock<Vec<Writer>> =
+        LazyLock::new(|| read_folder(&Path::new(env!("CARGO_MANIFEST_DIR")).join("prompts/corpus")).unwrap());
+    &CORPUS
 }
 
 /// Says on stderr that the running test is skipped, or a part of it, and what it lacks.

@@ -154,7 +154,7 @@ impl Args {
             );
         }
         if let Some(count) = self.draw {
-            for (linked, program) in drawn_sentences(&sentences, count, self.seed)? {
+            for (linked, program) in drawn_sentences(&corpus::read_folder(&sentences)?, count, self.seed) {
                 console::data(&format!("{}\n  {}\n", linked.tokens_text, program_to_notation(&program)))?;
             }
             return Ok(());

@@ -27,6 +27,7 @@ use crate::frame::SceneFrame;
 use crate::hung::name_pictures;
 use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects};
 use crate::keys::{boundaries_of, steps_of};
+use crate::lacking::name_lacking;
 use crate::likeness::join_likenesses;
 use crate::located::absorb_places;
 use crate::model::Model;
@@ -135,6 +136,7 @@ impl Director {
         name_by_label_words(prompt, objects, &mut found);
         name_by_uses(prompt, objects, &mut found);
         name_banned(prompt, objects, &mut found);
+        name_lacking(prompt, objects, &mut found)?;
         join_likenesses(prompt, objects, &mut found);
         name_pictures(prompt, objects, &mut found);
         point_by_words(prompt, objects, &mut found);

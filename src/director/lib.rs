@@ -32,6 +32,7 @@ mod frame;
 mod hung;
 pub mod inputs;
 pub mod keys;
+mod lacking;
 mod likeness;
 mod located;
 mod manifest;

@@ -1,10 +1,10 @@
 use std::collections::BTreeSet;
-use std::path::Path;
 
 use cinesplat::language::{Automaton, MAX_STEPS, Pattern, program_from_notation, program_pattern, program_to_notation};
-use cinesplat::training::corpus;
 use rand::{RngExt, SeedableRng};
 use rand_pcg::Pcg64;
+
+use crate::support::corpus;
 
 /// The notation over some objects.
 fn notation(ids: &[u32]) -> Automaton {
@@ -19,9 +19,7 @@ fn has_short_numbers(text: &str) -> bool {
 
 #[test]
 fn every_printed_program_of_the_corpus_is_accepted() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("prompts/corpus");
-    let writers = corpus::read_folder(&folder).unwrap();
-    let programs: Vec<_> = writers.iter().flat_map(|writer| &writer.sentences).map(|s| s.program.clone()).collect();
+    let programs: Vec<_> = corpus().iter().flat_map(|writer| &writer.sentences).map(|s| s.program.clone()).collect();
     // What a scene lacks has a large id; here it is one more object.
     let small = |ids: &[u32]| ids.iter().map(|id| (*id).min(999)).collect::<Vec<u32>>();
     let programs: Vec<_> = programs.into_iter().map(|program| program.with_ids(&small)).collect();

@@ -1,8 +1,8 @@
 //! The corpus of people's sentences.
 
-use std::path::Path;
+use cinesplat::training::corpus::{Split, parse_marked, read_writer};
 
-use cinesplat::training::corpus::{Split, parse_marked, read_folder, read_writer};
+use crate::support::corpus;
 
 #[test]
 fn marks_say_mentions_steps_and_unmet_words() {
@@ -20,13 +20,13 @@ fn marks_say_mentions_steps_and_unmet_words() {
 
 #[test]
 fn every_sentence_of_the_corpus_has_a_program() {
-    let writers = read_folder(Path::new("prompts/corpus")).unwrap();
+    let writers = corpus();
     let count = |split| writers.iter().filter(|writer| writer.split == split).count();
     assert!(writers.len() >= 16, "{} writers", writers.len());
     assert!(count(Split::Exam) >= 3 && count(Split::Development) >= 2);
     let sentences: usize = writers.iter().map(|writer| writer.sentences.len()).sum();
     assert!(sentences >= 8000, "{sentences} sentences");
-    for writer in &writers {
+    for writer in writers {
         for sentence in &writer.sentences {
             assert!(writer.scenes.contains_key(&sentence.scene), "{} line {}", writer.name, sentence.line);
         }

@@ -1,6 +1,6 @@
 //! Wishes, asides, corrections and lists in training.
 
-use std::path::Path;
+use std::sync::LazyLock;
 
 use cinesplat::language::{Linked, program_to_notation};
 use cinesplat::operator::Program;
@@ -8,14 +8,17 @@ use cinesplat::training::{Modifiers, Position, drawn_sentences};
 use rand::SeedableRng;
 use rand_pcg::Pcg64;
 
-fn drawn(count: usize, seed: u64) -> Vec<(Linked, Program)> {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("prompts/corpus");
-    drawn_sentences(&folder, count, seed).expect("the corpus reads")
+use crate::support::corpus;
+
+/// Drawn once, because it takes a while.
+fn drawn() -> &'static [(Linked, Program)] {
+    static DRAWN: LazyLock<Vec<(Linked, Program)>> = LazyLock::new(|| drawn_sentences(corpus(), 12_000, 5));
+    &DRAWN
 }
 
 #[test]
 fn every_drawn_word_has_its_bytes_and_every_placeholder_its_value() {
-    for (linked, _) in drawn(4000, 3) {
+    for (linked, _) in &drawn()[..4000] {
         let words: Vec<&str> = linked.tokens_text.split(' ').collect();
         assert_eq!(words.len(), linked.spans.len(), "{}", linked.tokens_text);
         let number = |word: &str, prefix: &str| word.strip_prefix(prefix)?.strip_suffix('>')?.parse::<usize>().ok();
@@ -30,7 +33,7 @@ fn every_drawn_word_has_its_bytes_and_every_placeholder_its_value() {
 #[test]
 fn numbers_of_drawn_programs_are_quantities_of_their_words() {
     let (mut stated, mut found) = (0, 0);
-    for (linked, program) in drawn(4000, 4) {
+    for (linked, program) in drawn() {
         let Some(secs) = program.duration_secs else { continue };
         stated += 1;
         found += usize::from(linked.quantities.iter().any(|quantity| (quantity.value - secs).abs() < 1e-9));
@@ -54,7 +57,7 @@ fn a_wish_reaches_the_program_with_its_number_and_object() {
 
 #[test]
 fn all_wishes_of_the_repository_are_drawn() {
-    let programs: String = drawn(12_000, 5).iter().map(|(_, program)| program_to_notation(program) + " \n").collect();
+    let programs: String = drawn().iter().map(|(_, program)| program_to_notation(program) + " \n").collect();
     for wish in ["at-upper", "avoid=", "ease=ease-in ", "ease=ease-out ", "look=back ", "with=roll", "135mm"] {
         assert!(programs.contains(wish), "{wish}");
     }

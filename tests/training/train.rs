@@ -39,7 +39,7 @@ fn short_training() -> TrainSettings {
         corpus: 100,
         vocabulary: 300,
         checkpoint_every: 100,
-        evaluation_prompts: 3,
+        evaluation_prompts: 0,
         ..TrainSettings::default()
     }
 }
@@ -76,7 +76,7 @@ fn a_text_encoder_trained_beforehand_is_trained_on_and_goes_into_the_model() {
 fn the_loss_falls_and_progress_reports_count_the_steps() {
     let out = tempfile::tempdir().unwrap();
     let (mut steps, mut losses) = (Vec::new(), Vec::new());
-    let settings = TrainSettings { steps: 24, warm_up: 4, report_every: 8, ..short_training() };
+    let settings = TrainSettings { steps: 24, warm_up: 4, report_every: 8, evaluation_prompts: 3, ..short_training() };
     let summary = train(&settings, out.path(), &mut |progress| {
         if let TrainingProgress::Steps { done, total, choice_loss, .. } = progress {
             steps.push((*done, *total));

@@ -8,6 +8,7 @@ use cinesplat_trajectory::{Move, ShotSize};
 
 use super::called::is_called;
 use super::directions::is_form;
+use super::openings::OPENS;
 use crate::direction::Direction;
 
 /// What one comes in by.
@@ -20,10 +21,16 @@ const INTO: &str = "in inside into through from";
 const LOOKS: &str =
     "show shows showing see seeing view views picture frame framed focus on of tight wide shot pan tilt turn up";
 
+/// Words of a body that is at a place, and most words before that place.
+const POSTURES: &str =
+    "standing stand stood seated sitting sit sat lying lie perched kneeling crouched crouching leaning waiting";
+const MAX_BEFORE_PLACE: usize = 9;
+
 /// Begins at the door by which the words come in what the next step does.
 pub(crate) fn come_in_at_doors(linked: &Linked, objects: &[Object], direction: &mut Direction) {
     if let Some(first) = direction.program.steps.first_mut() {
         leave_door(linked, objects, first);
+        begin_at_place(linked, objects, first);
     }
     let mut nth = 1;
     while nth < direction.program.steps.len() {
@@ -58,6 +65,49 @@ fn leave_door(linked: &Linked, objects: &[Object], step: &mut Step) {
         let objects = std::mem::take(&mut step.start).subjects;
         step.via = Some(Via { how: Pass::From, objects });
     }
+}
+
+/// Begins at the place where the words say that the camera is, and sees what there is to see from it: `start in the doorway,
+/// hold`, `standing in the doorway, pan left`, `seated at the desk, look at the clock`, `begin next to the bed, walk to the door`.
+fn begin_at_place(linked: &Linked, objects: &[Object], step: &mut Step) {
+    let words = linked.texts_in(step.words.unwrap_or_default());
+    let Some((at, id)) = words.iter().enumerate().find_map(|(at, word)| Some((at, linked.slot_at(word)?))) else {
+        return;
+    };
+    let place = linked.expanded(&[id]);
+    let looks =
+        words[..at].iter().any(|word| is_listed(LOOKS, word) || is_form(word, "look") || is_form(word, "close"));
+    let [one] = place[..] else { return };
+    if looks || at > MAX_BEFORE_PLACE || step.via.as_ref().is_some_and(|via| via.objects != place) {
+        return;
+    }
+    let before = &words[..at];
+    let last = before.iter().rposition(|word| *word != "the").map_or("", |last| before[last]);
+    let is_body = before.iter().any(|word| is_listed(POSTURES, word));
+    let is_within = is_called(objects, one, DOORS) && is_listed("in inside within at by", last);
+    let is_beside = is_listed("by beside", last) || before.windows(2).any(|pair| pair == ["next", "to"]);
+    let is_at = is_body && is_listed("at on in by beside near to", last);
+    let travels =
+        matches!(step.movement, Move::PushIn | Move::Follow | Move::FlyThrough | Move::TruckLeft | Move::TruckRight);
+    let opens = before.iter().any(|word| OPENS.contains(word)) || is_body;
+    let starts_there = |framing: &Framing| framing.subjects == place;
+    let leads_away = !step.end.subjects.is_empty() && !starts_there(&step.end);
+    let is_way = opens && travels && leads_away && (is_within || is_beside || is_at);
+    let rests = step.movement == Move::Static && (step.end.subjects.is_empty() || starts_there(&step.end));
+    let turns = matches!(step.movement, Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown);
+    let is_held = (opens && rests || is_body && turns && !starts_there(&step.end)) && (is_within || is_at);
+    let is_free = |framing: &Framing| framing.side.is_none() && framing.angle.is_none();
+    if !(is_way || is_held) || !is_free(&step.start) || !is_free(&step.end) {
+        return;
+    }
+    for framing in [&mut step.start, &mut step.end] {
+        if framing.subjects == place {
+            // `Start in the doorway, wide`.
+            let size = framing.size.filter(|size| *size == ShotSize::Long);
+            *framing = Framing { size, ..Framing::default() };
+        }
+    }
+    step.via = Some(Via { how: Pass::From, objects: place });
 }
 
 /// The second step, from the door that the first one only comes in by.
@@ -108,6 +158,30 @@ mod tests {
         assert_eq!(steps.len(), 1);
         assert_eq!(steps[0].via, Some(Via { how: Pass::From, objects: vec![5] }));
         assert_eq!(directed("push in on <obj-0> , walk up to <obj-1>", 20).len(), 2);
+    }
+
+    #[test]
+    fn a_film_begins_where_the_words_say_that_the_camera_is() {
+        let object = |id, label| Object::from_box(id, label, DVec3::ZERO, DVec3::ONE);
+        let objects = [object(5, "gray door"), object(7, "desk"), object(9, "bed")];
+        let begun = |text: &str, movement, start: &[u32], end: &[u32]| {
+            let about = |ids: &[u32]| Framing { subjects: ids.to_vec(), ..Framing::default() };
+            let step =
+                Step { start: about(start), end: about(end), words: Some([0, text.len()]), ..Step::of(movement) };
+            let mut direction = direction(vec![step]);
+            come_in_at_doors(&linked(text), &objects, &mut direction);
+            let step = direction.program.steps.remove(0);
+            (step.via.map(|via| via.objects), step.start.subjects, step.end.subjects)
+        };
+        let at = |place: u32, end: &[u32]| (Some(vec![place]), Vec::new(), end.to_vec());
+        assert_eq!(begun("start in the <obj-0> and hold", Move::Static, &[], &[5]), at(5, &[]));
+        assert_eq!(begun("standing in the <obj-0> , pan left", Move::PanLeft, &[5], &[]), at(5, &[]));
+        assert_eq!(begun("seated at <obj-1> , tilt up to <obj-0>", Move::TiltUp, &[7], &[5]), at(7, &[5]));
+        assert_eq!(begun("begin next to <obj-2> , walk to <obj-1>", Move::Follow, &[9], &[7]), at(9, &[7]));
+        let seen = |start: &[u32], end: &[u32]| (None, start.to_vec(), end.to_vec());
+        assert_eq!(begun("start on <obj-0> and hold", Move::Static, &[], &[5]), seen(&[], &[5]));
+        assert_eq!(begun("start at <obj-1> , go to <obj-2>", Move::Follow, &[7], &[9]), seen(&[7], &[9]));
+        assert_eq!(begun("begin with a view of <obj-0>", Move::Static, &[], &[5]), seen(&[], &[5]));
     }
 
     #[test]

@@ -4,8 +4,6 @@
 //! request. So training glues the phrases of `prompts/modifiers.txt` to the sentences of the corpus, and sentences to each
 //! other as lists: the clauses are people's, only their combination is random.
 
-use std::path::Path;
-
 use cinesplat_language::{Linked, Mention, link_mentions};
 use cinesplat_operator::Program;
 use rand::seq::{IndexedRandom, SliceRandom};
@@ -17,7 +15,7 @@ use super::modifiers::{Modifier, Modifiers, Position, Wish};
 use super::sentence::Sentence;
 use super::slips::with_slip;
 use super::wishes::with_wish;
-use crate::corpus::{CorpusError, CorpusSentence, Split, Writer, read_folder};
+use crate::corpus::{CorpusSentence, Split, Writer};
 
 /// Fraction of the draws that join sentences.
 const JOINED_FRAC: f64 = 0.3;
@@ -266,12 +264,9 @@ fn own_duration(sentence: &mut Sentence) {
 }
 
 /// Sentences as training draws them: words with placeholders, and the program.
-///
-/// # Errors
-/// [`CorpusError`] of the first file of `folder` that cannot be read.
-pub fn drawn_sentences(folder: &Path, count: usize, seed: u64) -> Result<Vec<(Linked, Program)>, CorpusError> {
-    let sentences = Sentences::of(&read_folder(folder)?, None, seed);
+pub fn drawn_sentences(writers: &[Writer], count: usize, seed: u64) -> Vec<(Linked, Program)> {
+    let sentences = Sentences::of(writers, None, seed);
     let mut rng = Pcg64::seed_from_u64(seed);
     let drawn = std::iter::repeat_with(|| sentences.draw(&mut rng)).map_while(|drawn| drawn);
-    Ok(drawn.take(count).map(|Sentence { linked, program, .. }| (linked, program)).collect())
+    drawn.take(count).map(|Sentence { linked, program, .. }| (linked, program)).collect()
 }
