@@ -14,7 +14,7 @@ const CAUSES: &str = "make makes making have having get getting let tell ask ord
 const LINKS: &str = "to should must will shall would could can now then suddenly slowly starts start begins begin";
 /// What only the living and machines do.
 const ACTS: &str = "jump leap hop blink wink wave dance bark meow purr roar sing talk speak say \
-    shout yell scream kneel crawl swim yawn sneeze cough bow clap kick punch juggle gallop trot limp stagger";
+    shout yell scream kneel crawl swim yawn sneeze cough bow clap kick punch juggle gallop trot limp stagger topple tumble shatter crumble levitate";
 /// What somebody is told to do, and what the words say as well of things at rest (`the road runs along the wall`).
 const TOLD_ACTS: &str = "smile grin laugh cry weep frown walk run fly sit stand lie sleep wake eat drink breathe stretch open \
     explode burn melt collapse ring strike chime light shine flicker grow shrink fall climb ride drive dress undress cook clean play pose shake switch";

@@ -44,7 +44,15 @@ pub(crate) fn point_by_words(prompt: &str, objects: &[NamedObject], found: &mut 
             .or_else(|| of_seat(prompt, objects, found, nth))
             .or_else(|| on_easel(prompt, objects, found, nth).inspect(|ids| easel = Some(ids.clone())))
             .or_else(|| canvases(prompt, objects, found, nth))
-            .or_else(|| easel.clone().filter(|_| is_only_canvas(said(prompt, &found[nth].mention))));
+            .or_else(|| {
+                let hangs = behind(prompt, found[nth].mention.bytes[1]).first().is_some_and(|word| word.text == "on");
+                easel.clone().filter(|_| is_only_canvas(said(prompt, &found[nth].mention)) && !hangs)
+            });
+        if let [id] = found[nth].mention.ids[..]
+            && label(objects, id).and_then(head).as_deref() == Some("easel")
+        {
+            easel = Some(vec![id]);
+        }
         if let Some(ids) = ids {
             found[nth].mention.ids = ids;
         } else if let Some((id, to)) = bearing(prompt, objects, found, nth) {
@@ -120,7 +128,11 @@ fn canvases(prompt: &str, objects: &[NamedObject], found: &[FoundMention], nth: 
         tokenize(said(prompt, mention)).iter().any(|word| matches!(word.text.as_str(), "canvas" | "canvases"));
     let is_easel = |id: &u32| label(objects, *id).and_then(head).as_deref() == Some("easel");
     let easels: Vec<u32> = objects.iter().map(|object| object.id).filter(is_easel).collect();
-    (is_canvas && !easels.is_empty() && !mention.ids.iter().any(is_easel)).then_some(easels)
+    let is_plural = tokenize(said(prompt, mention)).iter().any(|word| word.text == "canvases");
+    // `The middle easel, hold on the canvas`.
+    let named = found[..nth].iter().rev().map(|before| &before.mention.ids).find(|ids| ids.iter().any(is_easel));
+    let named = named.filter(|ids| ids.len() == 1 && !is_plural).cloned();
+    (is_canvas && !easels.is_empty() && !mention.ids.iter().any(is_easel)).then(|| named.unwrap_or(easels))
 }
 
 /// What bears a thing that the scene has no thing for, and is named for such things: the tool wall of `the hammers on the tool wall`.

@@ -24,6 +24,7 @@ use crate::direction::{Direction, StepCertainty};
 use crate::error::DirectorError;
 use crate::explained::{drop_first_ones, drop_sizes, name_by_label_words, name_by_parts, point_back, point_ones};
 use crate::frame::SceneFrame;
+use crate::heads::point_by_heads;
 use crate::hung::name_pictures;
 use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects};
 use crate::keys::{boundaries_of, steps_of};
@@ -139,6 +140,7 @@ impl Director {
         name_lacking(prompt, objects, &mut found)?;
         join_likenesses(prompt, objects, &mut found);
         name_pictures(prompt, objects, &mut found);
+        point_by_heads(prompt, objects, places, &mut found);
         point_by_words(prompt, objects, &mut found);
         point_to_said(prompt, objects, &mut found);
         point_by_size(prompt, objects, places, &mut found);

@@ -29,6 +29,7 @@ mod director;
 mod error;
 mod explained;
 mod frame;
+mod heads;
 mod hung;
 pub mod inputs;
 pub mod keys;

@@ -102,6 +102,7 @@ pub(crate) fn absorb_places(
             && between.len() == 1
             && between[0].text == ",";
         if is_again
+            || is_one_again(prompt, objects, thing, place, &between)
             || says_where && is_loose
             || locates(&between) && is_named(thing, place)
             || has_part(prompt, objects, thing, place, &between)?
@@ -130,6 +131,23 @@ fn has_part(
         && between.iter().all(|word| is_listed("with the a an its", &word.text));
     let is_thing = part.ids.iter().filter_map(|id| label(objects, *id)).any(|label| content(label).contains(&own));
     Ok(has && !is_thing && part_of(&own, "")?.is_some())
+}
+
+/// Words between a thing and `the big green one`, which is the same thing, and words by which it is another one.
+const ON_FLOOR: &str = "on the floor ground in corner over there";
+const OTHERS: &str = "other another next last first second third left right middle same";
+
+/// Whether a mention only describes the thing before it once more: `the plant on the floor, the big green one`.
+fn is_one_again(prompt: &str, objects: &[NamedObject], thing: &Mention, place: &Mention, between: &[Word]) -> bool {
+    let [id] = thing.ids[..] else { return false };
+    let words = tokenize(said(prompt, place));
+    let is_one = words.last().is_some_and(|word| word.text == "one")
+        && !words.iter().any(|word| is_listed(OTHERS, &word.text) || word.text == "and");
+    let comma = between.iter().position(|word| word.text == ",");
+    let rest = comma.map(|at| between.iter().enumerate().filter(move |(other, _)| *other != at));
+    let is_plain = rest.is_some_and(|mut rest| rest.all(|(_, word)| is_listed(ON_FLOOR, &word.text)));
+    // `The mug, the green one` where another thing is green is still the mug.
+    is_one && is_plain && !place.ids.is_empty() && label(objects, id).is_some()
 }
 
 #[cfg(test)]
@@ -164,5 +182,7 @@ mod tests {
         };
         assert_eq!(num("to the plate with the yellow rim", ["the plate", "the yellow rim"]), 1);
         assert_eq!(num("to the plate with the yellow mug", ["the plate", "the yellow mug"]), 2);
+        assert_eq!(num("show the plate on the floor, the yellow one", ["the plate", "the yellow one"]), 1);
+        assert_eq!(num("show the plate, the other one", ["the plate", "the other one"]), 2);
     }
 }

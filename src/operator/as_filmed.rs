@@ -5,11 +5,12 @@ use glam::DVec3;
 
 use crate::program::{Amount, Framing, Look, Motion, Pass, Program, Step, Via};
 use crate::view::LYING_RADII;
-use crate::world::World;
+use crate::world::{Subject, World};
 
 /// The program with the move first where a step says `handheld` before it, with flights that set out from a thing at
 /// that thing, with ways in through a door that nothing lies behind as ways from the door, with flights over things to
-/// what the next step shows, with descents to a worm's view that end at the floor, and with slides from thing to thing that
+/// what the next step shows, with descents to a worm's view that end at the floor, with tilts to what is
+/// aside as turns, and with slides from thing to thing that
 /// look where they go.
 pub(super) fn as_filmed(world: &World, program: &Program) -> Program {
     let mut filmed = program.clone();
@@ -38,6 +39,10 @@ pub(super) fn as_filmed(world: &World, program: &Program) -> Program {
             stay_above_tables(world, step);
         } else {
             circle_lone_thing(step);
+        }
+        let before = program.steps[..nth].iter().rev().find_map(|before| before.end.subjects.first());
+        if turns_aside(world, before.copied(), step) {
+            (step.movement, step.either_way) = (Move::PanRight, true);
         }
         if sways_first(step) {
             // The sway takes its time from the move.
@@ -108,6 +113,28 @@ fn circle_lone_thing(step: &mut Step) {
             other => other,
         };
     }
+}
+
+/// Distance apart from which on two things of a room do not stand one above the other, and that of a camera to the nearer one
+/// of them, over its radius.
+const APART_RADII: f64 = 12.0;
+const SEEN_RADII: f64 = 9.0;
+
+/// Whether a tilt leads from one thing to another one that no camera of the room sees above or below it.
+fn turns_aside(world: &World, before: Option<u32>, step: &Step) -> bool {
+    let tilts = matches!(step.movement, Move::TiltUp | Move::TiltDown) && step.with.is_empty() && step.via.is_none();
+    let shown = step.start.subjects.first().copied().or(before);
+    let pair = shown.zip(step.end.subjects.first().copied()).filter(|(from, to)| from != to);
+    let Some((from, to)) = pair.filter(|_| tilts && world.is_indoor()) else { return false };
+    let Some((from, to)) = world.subject(from).zip(world.subject(to)) else { return false };
+    let across = world.frame.horizontal(to.center - from.center);
+    let way = across.normalize_or_zero();
+    let stands = |subject: &Subject, out: DVec3| {
+        let point = subject.center + out * (subject.reach(out) + SEEN_RADII * world.camera_radius);
+        let level = world.frame.up * (world.eye_height() - world.height_above_floor(point));
+        world.in_capture_region(point + level) && world.beyond_corner_frac(point + level) <= 0.0
+    };
+    across.length() > APART_RADII * world.camera_radius && !stands(from, -way) && !stands(to, way)
 }
 
 /// Whether a step sinks to where a worm looks from, which in a room is its floor, whatever the elevation there.

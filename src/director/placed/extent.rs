@@ -86,6 +86,22 @@ pub(super) fn cornermost(places: Places<'_>, ids: &[u32]) -> Option<u32> {
     ids.iter().filter_map(to_corner).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| id)
 }
 
+/// The largest thing on the floor, or the one nearest to it.
+pub(super) fn lowest(places: Places<'_>, ids: &[u32]) -> Option<u32> {
+    let all: Vec<Extent> = places.objects.iter().map(|object| Extent::of(object, places.up)).collect();
+    let low = all.iter().map(|extent| extent.low[2]).fold(f64::INFINITY, f64::min);
+    let high = all.iter().map(|extent| extent.high[2]).fold(f64::NEG_INFINITY, f64::max);
+    let boxes = ids.iter().filter_map(|id| Some((*id, box_of(places, *id)?)));
+    let (on_floor, above): (Vec<_>, Vec<_>) =
+        boxes.partition(|(_, own)| own.low[2] - low < ON_FLOOR_FRAC * (high - low));
+    let size = |own: &Extent| (0..3).map(|axis| own.high[axis] - own.low[axis]).sum::<f64>();
+    let largest = on_floor.iter().max_by(|a, b| size(&a.1).total_cmp(&size(&b.1)));
+    largest.or_else(|| above.iter().min_by(|a, b| a.1.low[2].total_cmp(&b.1.low[2]))).map(|(id, _)| *id)
+}
+
+/// Height of the foot of a thing on the floor, of that of the scene.
+const ON_FLOOR_FRAC: f64 = 0.06;
+
 /// How badly a thing lies so to the one of others to which it does best, and the width of that; `None` where it does not.
 pub(super) fn fit(places: Places<'_>, id: u32, relation: Relation, others: &[Extent]) -> Option<(f64, f64)> {
     let own = box_of(places, id)?;

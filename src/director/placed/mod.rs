@@ -10,10 +10,10 @@ mod relations;
 use cinesplat_language::{Mention, NamedObject, Word, is_listed, number_word, tokenize};
 
 pub use extent::Places;
-use extent::{Relation, boxes, cornermost, fit};
+use extent::{Relation, boxes, cornermost, fit, lowest};
 pub(crate) use flanks::{Flank, outermost, told_flank};
 use flanks::{flanking, of_size};
-use relations::{inner_place, relation_of, relation_to_pronoun, says_corner, says_way};
+use relations::{inner_place, relation_of, relation_to_pronoun, says_corner, says_floor, says_way};
 
 use crate::explained::{content, head, is_number, label, said};
 use crate::hung;
@@ -180,6 +180,9 @@ fn placed(
     });
     if alike.len() < 2 || count == Some(alike.len()) {
         return None;
+    }
+    if !is_plural && says_floor(prompt, &found[nth].mention) {
+        return lowest(places, alike).map(|id| vec![id]);
     }
     let behind = placed_behind(prompt, found, nth).or_else(|| placed_later(prompt, objects, found, nth));
     let Some((relation, others)) = behind else {
@@ -363,6 +366,24 @@ mod tests {
         }
         point_by_places(prompt, &names, Places { objects: &objects, up: DVec3::Y }, &mut found);
         found.into_iter().map(|found| found.mention.ids).collect()
+    }
+
+    #[test]
+    fn a_thing_on_the_floor_is_the_one_that_stands_there() {
+        let objects = [
+            Object::from_box(1, "small plant", DVec3::new(0.0, 1.2, 0.0), DVec3::splat(0.2)),
+            Object::from_box(2, "potted plant", DVec3::new(1.0, 0.4, 0.0), DVec3::splat(0.4)),
+        ];
+        let names: Vec<NamedObject> =
+            objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect();
+        let pointed = |prompt: &str| {
+            let mention = Mention { bytes: [0, 9], ids: vec![1] };
+            let mut found = vec![FoundMention { mention, probability: 1.0, nearest: Vec::new() }];
+            point_by_places(prompt, &names, Places { objects: &objects, up: DVec3::Y }, &mut found);
+            found[0].mention.ids.clone()
+        };
+        assert_eq!(pointed("the plant on the floor"), [2]);
+        assert_eq!(pointed("the plant on the shelf"), [1]);
     }
 
     #[test]

@@ -67,6 +67,14 @@ pub(super) fn says_corner(prompt: &str, mention: &Mention) -> bool {
     corner.is_some_and(|at| at > 0 && words[..at].iter().all(|word| is_listed(CORNER, &word.text)))
 }
 
+/// Whether the words behind a mention say that it stands on the floor.
+pub(super) fn says_floor(prompt: &str, mention: &Mention) -> bool {
+    let words = tokenize(prompt.get(mention.bytes[1]..).unwrap_or_default());
+    let words: Vec<&str> = words.iter().take(4).map(|word| word.text.as_str()).collect();
+    let words = words.strip_prefix(&["standing"]).or_else(|| words.strip_prefix(&["down"])).unwrap_or(&words);
+    matches!(words, ["on", "the", "floor" | "ground" | "floorboards", ..])
+}
+
 /// Whether words between a thing and its place are those of a way, too: a camera goes behind things and along them.
 pub(super) fn says_way(words: &[Word]) -> bool {
     words.iter().any(|word| is_listed(WAYS, &word.text))

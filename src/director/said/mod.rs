@@ -94,6 +94,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     places::pass_across(linked, steps);
     places::stand_above(steps);
     places::crane_from_above(steps);
+    places::rise_to_above(steps);
     places::complete_framings(steps);
     places::place_ends(linked, steps);
     moods::drop_statements(linked, direction);
@@ -105,6 +106,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     sweeps::join_sweeps(linked, direction);
     sweeps::land_on(linked, direction);
     repeats::drop_restated(direction);
+    repeats::join_told_circles(linked, direction);
     splits::split_moves(linked, direction);
     together::complete_lists(linked, &mut direction.program);
     let steps = &mut direction.program.steps;
@@ -234,6 +236,7 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
 pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &mut Direction) {
     moods::drop_stories(linked, direction);
     openings::drop_unnamed_starts(linked, &mut direction.program.steps);
+    openings::drop_unnamed_passes(linked, &mut direction.program.steps);
     places::leave_from(linked, direction);
     entries::come_in_at_doors(linked, objects, direction);
     specified::skim_tops(linked, objects, &mut direction.program.steps);

@@ -62,7 +62,7 @@ fn may_say_direction(word: &str) -> bool {
 }
 
 /// Words of a step that retraces the step before.
-const RETRACES: [&str; 11] = [
+const RETRACES: [&str; 13] = [
     "retrace",
     "retraces",
     "retracing",
@@ -73,6 +73,8 @@ const RETRACES: [&str; 11] = [
     "returns",
     "undo",
     "rewind",
+    "rewinds",
+    "rewinding",
     "backtrack",
 ];
 /// Words behind `reverse` or `return` that make it another thing: `the reverse side`, `until it returns to view`.
@@ -93,7 +95,11 @@ pub(crate) fn reverse_retraced(linked: &Linked, steps: &mut [Step]) {
         // A film that has moved nowhere else ends where it began, whichever way it went.
         let is_open = steps[there].either_way && !steps[..there].iter().any(moving);
         steps[there].either_way = is_open;
+        let with = steps[there].with.clone();
         let step = &mut steps[nth];
+        // Who rose on the way out sinks on the way back.
+        let sinks = |second: &Move| with.contains(second).then(|| second.opposite()).flatten();
+        step.with = step.with.iter().map(|second| sinks(second).unwrap_or(*second)).collect();
         step.either_way = is_open;
         step.returns |= is_open;
         step.movement = if is_open { movement } else { back };

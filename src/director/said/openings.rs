@@ -295,6 +295,30 @@ pub(crate) fn drop_unnamed_starts(linked: &Linked, steps: &mut [Step]) {
                 Framing { subjects: Vec::new(), part: SubjectPart::Middle, whole: false, ..step.start.clone() };
         }
     }
+    // `Open wide on the whole studio, glide to the easel, hold on the painting` does not begin on the painting.
+    let Some(first) = steps.first_mut() else { return };
+    let texts = linked.texts_in(first.words.unwrap_or_default());
+    let own = linked.expanded(&texts.iter().filter_map(|word| linked.slot_at(word)).collect::<Vec<u32>>());
+    let says_all = texts.iter().any(|word| ALL.contains(word));
+    if says_all && !own.is_empty() && !first.start.subjects.iter().any(|id| own.contains(id)) {
+        first.start.subjects.clear();
+    }
+}
+
+/// Words of the whole of what a film is about.
+const ALL: [&str; 4] = ["whole", "entire", "full", "wide"];
+
+/// Passes only what the words of a step name where they name some of it: `come in by the door, pass the sideboard` comes in by
+/// the door alone.
+pub(crate) fn drop_unnamed_passes(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let Some((words, via)) = step.words.zip(step.via.as_mut()) else { continue };
+        let slots: Vec<u32> = linked.texts_in(words).iter().filter_map(|word| linked.slot_at(word)).collect();
+        let named = linked.expanded(&slots);
+        if via.objects.iter().any(|id| named.contains(id)) {
+            via.objects.retain(|id| named.contains(id));
+        }
+    }
 }
 
 /// The senses of words that ask for a turn on the spot; `None` for other moves.

@@ -129,6 +129,16 @@ pub(crate) fn stand_above(steps: &mut [Step]) {
     }
 }
 
+/// Begins a rise that ends looking down with no view from above: `lift off from its foot and end looking down on it`.
+pub(crate) fn rise_to_above(steps: &mut [Step]) {
+    let is_above = |framing: &Framing| matches!(framing.angle, Some(ShotAngle::High | ShotAngle::Overhead));
+    for step in steps.iter_mut().filter(|step| matches!(step.movement, Move::CraneUp | Move::PedestalUp)) {
+        if is_above(&step.start) && is_above(&step.end) && step.start.part == SubjectPart::Bottom {
+            step.start.angle = None;
+        }
+    }
+}
+
 /// Cranes down from a picture from straight above to a level one, which no descent that keeps its pitch does.
 pub(crate) fn crane_from_above(steps: &mut [Step]) {
     for nth in 1..steps.len() {

@@ -3,8 +3,8 @@
 //! The network sometimes takes the details of a move (its length, its extent, its subject) for a second move of the same
 //! kind. Such a step is one with the step before, unless the words repeat the move.
 
-use cinesplat_language::{LanguageError, Linked, Senses};
-use cinesplat_operator::{Amount, Framing, Pass, Speed, Step};
+use cinesplat_language::{LanguageError, Linked, Senses, is_listed};
+use cinesplat_operator::{Amount, Framing, Look, Pass, Speed, Step};
 use cinesplat_trajectory::Move;
 
 use super::open::as_orbit;
@@ -72,6 +72,46 @@ fn merged(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
         ..first.clone()
     };
     (with_all_of(&one, second) == one).then_some(one)
+}
+
+/// Words by which a circle is another one.
+const AGAIN: &str = "again another second twice more then next after reverse back opposite";
+/// Verbs of circles, and words that lead around a thing.
+const CIRCLES: &str = "circle orbit orbits circling orbiting go goes going walk around round about arc arcing move";
+
+/// Joins a circle with the words that only say again how far it goes: `circle the table once, full 360, always looking at the
+/// vase`. What they look at is no other center.
+pub(crate) fn join_told_circles(linked: &Linked, direction: &mut Direction) {
+    let mut nth = 1;
+    while nth < direction.program.steps.len() {
+        let [first, second] = &direction.program.steps[nth - 1..=nth] else { break };
+        let words = linked.texts_in(second.words.unwrap_or_default());
+        let is_told = !words.iter().any(|word| is_listed(AGAIN, word) || is_listed(CIRCLES, word));
+        let is_same = first.movement.is_circular()
+            && first.movement == second.movement
+            && first.amount.is_some()
+            && first.amount == second.amount
+            && second.words.is_some()
+            && second.words != first.words
+            && !second.cut
+            && !second.returns;
+        if !is_told || !is_same {
+            nth += 1;
+            continue;
+        }
+        let others = (!second.end.subjects.is_empty() && second.end.subjects != first.end.subjects)
+            .then(|| Look::At(second.end.subjects.clone()));
+        let own = Framing { subjects: first.end.subjects.clone(), ..second.end.clone() };
+        let one = Step {
+            end: framing_of(&first.end, &own),
+            look: second.look.clone().or(others).or_else(|| first.look.clone()),
+            easing: first.easing.or(second.easing),
+            duration_secs: first.duration_secs.or(second.duration_secs),
+            words: first.joint_words(second),
+            ..first.clone()
+        };
+        direction.join_steps(nth, one);
+    }
 }
 
 /// Removes a bare move that the next step says again with all that belongs to it (`pan right. Pan right, from the guitar to the

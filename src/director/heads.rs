@@ -1,0 +1,62 @@
+//! Names whose last word says what the thing is: the `dining lamp` is a lamp, and no dining table.
+
+use cinesplat_language::{NamedObject, Relation, Things};
+
+use crate::explained::{content, head, is_number, label, said};
+use crate::names::FoundMention;
+use crate::placed::Places;
+
+/// Points a mention whose last word does not fit the thing that it was taken for at the thing of that kind, the nearest of
+/// several.
+pub(crate) fn point_by_heads(prompt: &str, objects: &[NamedObject], places: Places<'_>, found: &mut [FoundMention]) {
+    for found in found {
+        let words = said(prompt, &found.mention);
+        let [id] = found.mention.ids[..] else { continue };
+        let (Some(noun), Some(taken)) = (head(words), label(objects, id)) else { continue };
+        if is_number(words) || content(words).len() < 2 || is_meant(taken, &noun) {
+            continue;
+        }
+        let center = |id: u32| places.objects.iter().find(|object| object.id == id).map(|object| object.center);
+        let apart = |id: u32| center(id).zip(center(found.mention.ids[0])).map_or(0.0, |(a, b)| a.distance(b));
+        // `The pink drawer unit` are the drawers, where another thing is called a unit as well.
+        let names_taken = head(taken).is_some_and(|taken| content(words).contains(&taken));
+        let is_called = |object: &&NamedObject| {
+            head(&object.label).as_deref() == Some(&noun)
+                || !names_taken && Things::embedded().is_related(&object.label, &noun, &[Relation::Same])
+        };
+        let of_kind = objects.iter().filter(is_called);
+        if let Some(object) = of_kind.min_by(|a, b| apart(a.id).total_cmp(&apart(b.id))) {
+            found.mention.ids = vec![object.id];
+        }
+    }
+}
+
+/// Whether a noun may mean what has a label.
+fn is_meant(label: &str, noun: &str) -> bool {
+    let named_by = [Relation::Same, Relation::Broader, Relation::Narrower, Relation::Part];
+    content(label).contains(noun) || Things::embedded().is_related(label, noun, &named_by)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::said::fixture::labelled;
+    use cinesplat_language::Mention;
+    use glam::DVec3;
+
+    #[test]
+    fn the_last_word_of_a_name_says_what_the_thing_is() {
+        let objects = labelled(&["dining table", "yellow pendant lamp", "white door", "pink drawers", "teal cabinet"]);
+        let pointed = |words: &str, id: u32| {
+            let mention = Mention { bytes: [0, words.len()], ids: vec![id] };
+            let mut found = [FoundMention { mention, probability: 1.0, nearest: Vec::new() }];
+            point_by_heads(words, &objects, Places { objects: &[], up: DVec3::Y }, &mut found);
+            found[0].mention.ids[0]
+        };
+        assert_eq!(pointed("the dining lamp", 1), 2);
+        assert_eq!(pointed("the dining table", 1), 1);
+        assert_eq!(pointed("the table leg", 1), 1);
+        assert_eq!(pointed("the door frame", 3), 3);
+        assert_eq!(pointed("the drawer unit", 4), 4);
+    }
+}
