@@ -13,6 +13,8 @@ use crate::names::FoundMention;
 const FURNISHINGS: &str = "bed sofa couch settee desk piano fridge refrigerator freezer oven stove cooker sink toaster microwave \
     kettle dishwasher wardrobe bookcase bookshelf dresser sideboard nightstand fireplace television tv telly bathtub toilet cot crib \
     cradle hammock aquarium cat dog horse motorbike bicycle chandelier armchair";
+/// Kinds of things that are not much alike.
+const BROAD: &str = "furniture appliance instrument animal machine device container storage";
 /// Words before a thing that is there.
 const DETERMINERS: &str = "the my our your his her their";
 /// Words before the determiner that make it a likeness.
@@ -89,7 +91,7 @@ fn is_alike(object: &NamedObject, noun: &Word) -> bool {
         kinds.filter_map(|kind| kind.broader.first()).map(String::as_str).collect()
     };
     let own = closest(&object.label);
-    closest(&noun.stem).iter().any(|kind| *kind != "furniture" && *kind != "appliance" && own.contains(kind))
+    closest(&noun.stem).iter().any(|kind| !is_listed(BROAD, kind) && own.contains(kind))
 }
 
 #[cfg(test)]

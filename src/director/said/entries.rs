@@ -10,6 +10,7 @@ use super::called::is_called;
 use super::directions::is_form;
 use super::openings::OPENS;
 use crate::direction::Direction;
+use crate::keys::MAX_KEYS;
 
 /// What one comes in by.
 const DOORS: &str = "door doors doorway entrance gate archway arch hatch";
@@ -32,6 +33,7 @@ pub(crate) fn come_in_at_doors(linked: &Linked, objects: &[Object], direction: &
         leave_door(linked, objects, first);
         begin_at_place(linked, objects, first);
     }
+    pass_from_door(linked, objects, direction);
     let mut nth = 1;
     while nth < direction.program.steps.len() {
         let [first, second] = &direction.program.steps[nth - 1..=nth] else { break };
@@ -65,6 +67,37 @@ fn leave_door(linked: &Linked, objects: &[Object], step: &mut Step) {
         let objects = std::mem::take(&mut step.start).subjects;
         step.via = Some(Via { how: Pass::From, objects });
     }
+}
+
+/// Makes two ways of one that leads in from a door, past something and on: `in from the door, past the desk, end at the window`
+/// shows the desk.
+fn pass_from_door(linked: &Linked, objects: &[Object], direction: &mut Direction) {
+    let Some(step) = direction.program.steps.first().filter(|_| direction.program.steps.len() < MAX_KEYS) else {
+        return;
+    };
+    let Some(via) = step.via.as_ref().filter(|via| via.how == Pass::Past && via.objects.len() == 1) else { return };
+    let without_passed = Step { via: None, ..step.clone() };
+    let mut led = without_passed.clone();
+    leave_door(linked, objects, &mut led);
+    let on_way = !step.end.subjects.contains(&via.objects[0]) && !step.start.subjects.contains(&via.objects[0]);
+    let words = linked.words_in(step.words.unwrap_or_default());
+    let mut named =
+        words.filter(|(word, _)| linked.slot_at(word).is_some_and(|id| linked.expanded(&[id]) == via.objects));
+    let Some((_, [_, passed])) = named.next().filter(|_| led != without_passed && on_way) else { return };
+    let [from, to] = step.words.unwrap_or_default();
+    let secs = step.duration_secs.map(|secs| secs / 2.0);
+    let end = Framing { subjects: via.objects.clone(), angle: step.end.angle, ..Framing::default() };
+    let first = Step { movement: Move::Follow, end, duration_secs: secs, words: Some([from, passed]), ..led.clone() };
+    let second = Step {
+        movement: Move::Follow,
+        via: None,
+        start: Framing::default(),
+        duration_secs: secs,
+        words: Some([passed, to]),
+        ..led
+    };
+    direction.insert_rest(0, first);
+    direction.program.steps[1] = second;
 }
 
 /// Begins at the place where the words say that the camera is, and sees what there is to see from it: `start in the doorway,
@@ -177,11 +210,27 @@ mod tests {
         assert_eq!(begun("start in the <obj-0> and hold", Move::Static, &[], &[5]), at(5, &[]));
         assert_eq!(begun("standing in the <obj-0> , pan left", Move::PanLeft, &[5], &[]), at(5, &[]));
         assert_eq!(begun("seated at <obj-1> , tilt up to <obj-0>", Move::TiltUp, &[7], &[5]), at(7, &[5]));
-        assert_eq!(begun("begin next to <obj-2> , walk to <obj-1>", Move::Follow, &[9], &[7]), at(9, &[7]));
+        assert_eq!(begun("begin next to <obj-1> , walk to <obj-0>", Move::Follow, &[7], &[5]), at(7, &[5]));
         let seen = |start: &[u32], end: &[u32]| (None, start.to_vec(), end.to_vec());
         assert_eq!(begun("start on <obj-0> and hold", Move::Static, &[], &[5]), seen(&[], &[5]));
-        assert_eq!(begun("start at <obj-1> , go to <obj-2>", Move::Follow, &[7], &[9]), seen(&[7], &[9]));
+        assert_eq!(begun("start at <obj-1> , go to the bed", Move::Follow, &[7], &[9]), seen(&[7], &[9]));
         assert_eq!(begun("begin with a view of <obj-0>", Move::Static, &[], &[5]), seen(&[], &[5]));
+    }
+
+    #[test]
+    fn a_way_from_a_door_past_something_shows_it() {
+        let text = "in from the <obj-0> , past <obj-1> , end at the window";
+        let about = |id: u32| Framing { subjects: vec![id], ..Framing::default() };
+        let via = Some(Via { how: Pass::Past, objects: vec![7] });
+        let words = Some([0, text.len()]);
+        let mut direction =
+            direction(vec![Step { start: about(5), end: about(9), via, words, ..Step::of(Move::FlyThrough) }]);
+        let object = |id, label| Object::from_box(id, label, DVec3::ZERO, DVec3::ONE);
+        come_in_at_doors(&linked(text), &[object(5, "gray door"), object(7, "desk")], &mut direction);
+        let [first, second] = &direction.program.steps[..] else { panic!("{:?}", direction.program.steps) };
+        assert_eq!(first.via, Some(Via { how: Pass::From, objects: vec![5] }));
+        assert_eq!((&first.end.subjects, &second.end.subjects), (&vec![7], &vec![9]));
+        assert_eq!(second.via, None);
     }
 
     #[test]
