@@ -15,6 +15,12 @@ use crate::said::{asks_for, is_form};
 /// Words that begin a part that holds where the part before arrives.
 const LANDS: [&str; 6] = ["land", "lands", "settle", "settles", "rest", "rests"];
 
+/// Words that begin a part where the way of the part before ends.
+const ARRIVES: [&str; 3] = ["arrive", "arrives", "arriving"];
+
+/// Words of a part that only says that the camera is on its way.
+const ON_THE_WAY: [&str; 8] = ["moving", "move", "moves", "travel", "traveling", "travelling", "travels", "transit"];
+
 /// Words of a part that rests.
 const HOLDS: [&str; 8] = ["hold", "static", "stay", "still", "rest", "pause", "freeze", "lock"];
 
@@ -55,6 +61,7 @@ pub(crate) fn direct_beats(
         if is_by_cuts && (direction.program.steps.is_empty() || says_nothing(linked, beat)) {
             return read(linked);
         }
+        rest_on_arrival(linked, beat, &whole.program.steps, &mut direction.program.steps);
         land(&mut whole.program.steps, &direction.program.steps);
         carry_on(&mut direction, &mut subjects);
         if is_moment(linked, timeline, beat, &direction.program.steps) && arrive(&mut whole, &direction, beat) {
@@ -100,11 +107,16 @@ pub(crate) fn direct_beats(
         }
     }
     let total_secs = whole.program.duration_secs;
-    let mut all_timed = true;
+    let (mut all_timed, mut on_the_way_secs) = (true, 0.0);
     for (nth, (beat, (first, stated))) in timeline.beats.iter().zip(&lengths).enumerate() {
         let end = lengths.get(nth + 1).map_or(whole.program.steps.len(), |next| next.0);
-        let secs = secs_of(beat, *stated, total_secs);
+        let secs = secs_of(beat, *stated, total_secs).map(|secs| secs + std::mem::take(&mut on_the_way_secs));
         all_timed &= secs.is_some();
+        // The next part says where to.
+        if *first == end && is_on_the_way(linked, beat) {
+            on_the_way_secs = secs.unwrap_or_default();
+            continue;
+        }
         if let Some(secs) = secs.filter(|secs| *secs > 0.0) {
             spread(&mut whole.program.steps[*first..end], secs);
         }
@@ -231,6 +243,23 @@ fn spread(steps: &mut [Step], secs: f64) {
     for step in steps {
         step.duration_secs = Some(step.duration_secs.map_or(rest, |own| own * scale));
     }
+}
+
+/// Rests where the way of the part before ends: `0:07 passing the jar | 0:10 arrive at the ladles`.
+fn rest_on_arrival(linked: &Linked, beat: &Beat, before: &[Step], part: &mut [Step]) {
+    let opening = linked.words_in(beat.bytes).map(|(word, _)| word).find(|word| word.starts_with(char::is_alphabetic));
+    let arrives = beat.secs().is_some() && opening.is_some_and(|word| ARRIVES.contains(&word));
+    let is_open = |step: &Step| step.movement != Move::Static && step.end == Framing::default();
+    let first = part.first_mut().filter(|first| matches!(first.movement, Move::Follow | Move::PushIn));
+    if let Some(first) = first.filter(|_| arrives && before.last().is_some_and(is_open)) {
+        first.movement = Move::Static;
+    }
+}
+
+/// Whether a part only says that the camera moves: `0:03 moving.`
+fn is_on_the_way(linked: &Linked, beat: &Beat) -> bool {
+    let words = linked.texts_in(beat.bytes);
+    !words.is_empty() && words.iter().all(|word| ON_THE_WAY.contains(word) || !word.starts_with(char::is_alphanumeric))
 }
 
 /// A turn or a travel without an end goes to what the next part holds on: `0:03 pan right | 0:06 land on the vase`.

@@ -12,7 +12,7 @@ use crate::names::FoundMention;
 /// What stands in rooms and means nothing else to somebody who films.
 const FURNISHINGS: &str = "bed sofa couch settee desk piano fridge refrigerator freezer oven stove cooker sink toaster microwave \
     kettle dishwasher wardrobe bookcase bookshelf dresser sideboard nightstand fireplace television tv telly bathtub toilet cot crib \
-    cradle hammock aquarium cat dog horse motorbike bicycle chandelier armchair";
+    cradle hammock aquarium cat dog horse motorbike bicycle chandelier armchair gramophone phonograph jukebox harp cello violin accordion typewriter";
 /// Words before a thing that is there.
 const DETERMINERS: &str = "the my our your his her their";
 /// Words before the determiner that make it a likeness.

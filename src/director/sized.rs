@@ -8,8 +8,9 @@ use crate::names::FoundMention;
 use crate::placed::Places;
 
 /// Words of size.
-const BIG: &str = "big bigger biggest large larger largest tall taller tallest huge giant great";
-const SMALL: &str = "small smaller smallest little tiny short miniature mini";
+const BIG: &str =
+    "big bigger biggest large larger largest wide wider widest broader tall taller tallest huge giant great";
+const SMALL: &str = "small smaller smallest narrow narrower narrowest little tiny short miniature mini";
 
 /// Points mentions of one thing that say its size, which its label does not, at the largest or smallest of its kind that fits
 /// their other words as well.

@@ -18,7 +18,7 @@ const LOOKS: &str = "grade grading graded palette palettes tone tones hue hues t
     glow light lighting contrast highlights shadows wash haze bokeh accents hour lut look scheme split";
 /// Terms of cameras and robots, of which objects are hardly ever the bearers of the name.
 const TERMS: &str = "axis axes objective constraint constraints sensor gimbal goal goals waypoint waypoints target targets \
-    pose poses floorboard floorboards ceiling skirting exhibit exhibits item items element elements position trajectory centroid standoff heading profile profiles silhouette";
+    pose poses floorboard floorboards ceiling skirting exhibit exhibits item items element elements position trajectory centroid standoff heading profile profiles silhouette panel panels";
 /// Words beside such a term.
 const BESIDE: &str = "of the a an his her full exact side left right its each every all any none of both this that next last first no optical";
 /// What comes before `plate` where it is a piece of film.

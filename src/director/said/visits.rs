@@ -53,12 +53,14 @@ pub(crate) fn visit_listed(linked: &Linked, direction: &mut Direction) {
 }
 
 /// Words that show several things one after the other.
-const IN_TURN: [&[&str]; 6] = [
+const IN_TURN: [&[&str]; 8] = [
     &["one", "after", "the", "other"],
     &["one", "after", "another"],
     &["one", "by", "one"],
     &["in", "turn"],
     &["each", "in", "turn"],
+    &["in", "sequence"],
+    &["in", "succession"],
     &["individually"],
 ];
 

@@ -2,13 +2,16 @@
 //!
 //! Enters: the words of a prompt. Leaves: its beats, each with its bytes and its length where that is stated: `0-3s
 //! wide, 3-6s the lamp`, `0:00 hold | 0:04 push in`, `T+0 .. T+3 ..`, `3s orbit, 2s hold`, `first third: ..`, `1) .. 2)
-//! ..`, `.. cut to ..`. A prompt with fewer than two beats is no timeline. The text before the first beat is the
+//! ..`, `.. cut to ..`, lines with dashes. A prompt with fewer than two beats is no timeline. The text before the first beat is the
 //! introduction.
 
+mod bullets;
 mod holds;
+mod shares;
 mod stamp;
 
 use super::tokenizer::{Word, span_of, word_at};
+use bullets::bullets;
 use holds::move_behind_hold;
 use stamp::{Stamp, StampKind, begins_item, cut_at, stamp_at};
 
@@ -77,7 +80,8 @@ pub(crate) fn timeline(prompt: &str, words: &[Word]) -> Option<Timeline> {
         }
         is_sequence(words, &stamps).then(|| beats_of(words, &stamps)).flatten()
     });
-    listed.or_else(|| beats_of(words, &cuts(words)))
+    let lines = || beats_of(words, &bullets(prompt, words));
+    listed.or_else(lines).or_else(|| beats_of(words, &cuts(words)))
 }
 
 /// Words before a number that make it no number of a list: `pan to chair 2.`, `hold for 2.`.
@@ -159,7 +163,7 @@ fn beats_of(words: &[Word], stamps: &[Stamp]) -> Option<Timeline> {
         };
         let is_last = nth + 1 == stamps.len();
         let is_end = is_last
-            && matches!(stamp.kind, StampKind::Point(_) | StampKind::Cut)
+            && matches!(stamp.kind, StampKind::Point(_) | StampKind::Number(_) | StampKind::Cut)
             && words[text[0]..text[1]]
                 .iter()
                 .all(|word| ENDINGS.contains(&word.text.as_str()) || !word.is_alphabetic());
