@@ -106,7 +106,7 @@ pub(crate) fn direct_beats(
             whole.program.forbidden.push(motion);
         }
     }
-    let total_secs = whole.program.duration_secs;
+    let total_secs = whole.program.duration_secs.or_else(|| secs_of_shares(timeline));
     let (mut all_timed, mut on_the_way_secs) = (true, 0.0);
     for (nth, (beat, (first, stated))) in timeline.beats.iter().zip(&lengths).enumerate() {
         let end = lengths.get(nth + 1).map_or(whole.program.steps.len(), |next| next.0);
@@ -216,6 +216,21 @@ fn without_start(linked: &Linked, [from, to]: [usize; 2]) -> Option<[usize; 2]> 
     let (first, _) = words.next()?;
     let starts = matches!(first, "start" | "starts" | "starting" | "begin" | "begins" | "beginning");
     words.next().filter(|_| starts).map(|(_, span)| [span[0], to])
+}
+
+/// Shortest part of a film that states only shares, and the longest such film; seconds.
+const LEAST_SHARE_SECS: f64 = 3.0;
+const MOST_SHARED_SECS: f64 = 30.0;
+
+/// The length of a film of which all parts are shares: the shortest part has time enough.
+fn secs_of_shares(timeline: &Timeline) -> Option<f64> {
+    let share = |beat: &Beat| match beat.length {
+        Some(BeatLength::Share(share)) if share > 0.0 => Some(share),
+        _ => None,
+    };
+    let shares: Option<Vec<f64>> = timeline.beats.iter().map(share).collect();
+    let least = shares?.into_iter().reduce(f64::min)?;
+    Some((LEAST_SHARE_SECS / least).min(MOST_SHARED_SECS))
 }
 
 /// The length of a part. `stated_secs` is what its own words say, `total_secs` the length of the film.

@@ -201,6 +201,11 @@ fn is_level(words: &[Word], [first, end]: [usize; 2]) -> bool {
     if is_seat {
         return true;
     }
+    // `Skirting-board level` is that of the floor.
+    let is_board = names.len() > 1 && names.iter().all(|word| is_listed("skirting base board -", &word.text));
+    if is_board && is_height(end) {
+        return true;
+    }
     let is_known = names.last().is_some_and(|word| is_level_name(&word.text)) && names.len() == 1;
     let inside = names.len() == 2 && is_height(first + 1) && is_level_name(word_at(words, first));
     is_known && is_height(end) || inside

@@ -81,7 +81,8 @@ pub(crate) fn timeline(prompt: &str, words: &[Word]) -> Option<Timeline> {
         is_sequence(words, &stamps).then(|| beats_of(words, &stamps)).flatten()
     });
     let lines = || beats_of(words, &bullets(prompt, words));
-    listed.or_else(lines).or_else(|| beats_of(words, &cuts(words)))
+    let pictures = || cut_list(words).and_then(|(end, stamps)| beats_of(&words[..end], &stamps));
+    listed.or_else(lines).or_else(pictures).or_else(|| beats_of(words, &cuts(words)))
 }
 
 /// Words before a number that make it no number of a list: `pan to chair 2.`, `hold for 2.`.
@@ -120,6 +121,20 @@ fn cuts(words: &[Word]) -> Vec<Stamp> {
     if cuts.is_empty() || cuts.len() >= MAX_BEATS { Vec::new() } else { [vec![opening], cuts].concat() }
 }
 
+/// The sentences of a prompt of which the last one says that cuts lie between them, and the word behind them: `Wide. Close on
+/// the vase. Hard cuts between.`
+fn cut_list(words: &[Word]) -> Option<(usize, Vec<Stamp>)> {
+    let is_end = |at: &usize| matches!(word_at(words, *at), "." | ";" | "!");
+    let last = words.iter().rposition(|word| word.is_alphabetic())?;
+    let end = (0..last).rev().find(is_end)? + 1;
+    let is_between =
+        |at: usize| matches!(word_at(words, at), "cuts" | "cut") && matches!(word_at(words, at + 1), "between" | "in");
+    let says_so = (end..words.len().min(end + 4)).any(is_between) && word_at(words, end) != "no";
+    let starts = [0].into_iter().chain((0..end - 1).filter(is_end).map(|at| at + 1));
+    let stamps: Vec<Stamp> = starts.map(|at| Stamp { at, end: at, kind: StampKind::Cut }).collect();
+    (says_so && (2..MAX_BEATS).contains(&stamps.len())).then_some((end, stamps))
+}
+
 /// Whether stamps of one kind are a timeline: in order, and so that the first begins the list.
 fn is_sequence(words: &[Word], stamps: &[Stamp]) -> bool {
     let [first, .., _] = stamps else { return false };
@@ -134,7 +149,11 @@ fn is_sequence(words: &[Word], stamps: &[Stamp]) -> bool {
         (before, after) => before.start_secs() + 1e-3 < after.start_secs(),
     });
     match first.kind {
-        StampKind::Number(number) => in_order && number == 1,
+        // `Panel 12, .. panel 13, ..` is a piece of a longer list.
+        StampKind::Number(number) => {
+            let is_named = |stamp: &Stamp| matches!(word_at(words, stamp.at), "panel" | "shot" | "setup" | "beat");
+            in_order && (number == 1 || stamps.iter().all(is_named))
+        }
         StampKind::Span(start, _) | StampKind::Point(start) => {
             in_order && (start == 0.0 || stamps.len() > 2 || first.at == 0)
         }
@@ -249,6 +268,20 @@ fn trimmed(words: &[Word], start: usize, end: usize) -> [usize; 2] {
 mod tests {
     use super::*;
     use crate::mention::link_mentions;
+
+    #[test]
+    fn sentences_with_cuts_between_are_pictures() {
+        let parts = |prompt: &str| -> Vec<(String, bool)> {
+            let timeline = link_mentions(prompt, &[]).unwrap().timeline;
+            let beats = timeline.map(|timeline| timeline.beats).unwrap_or_default();
+            beats.iter().map(|beat| (prompt[beat.bytes[0]..beat.bytes[1]].to_owned(), beat.cut)).collect()
+        };
+        let three = [("Wide first", false), ("Medium of the chair", true), ("Close on the vase", true)];
+        let three = three.map(|(text, cut)| (text.to_owned(), cut));
+        assert_eq!(parts("Wide first. Medium of the chair. Close on the vase. Hard cuts between, no moves."), three);
+        assert_eq!(parts("Wide first. Close on the vase. No cuts between."), []);
+        assert_eq!(parts("Panel 12, low. Panel 13, over it.").len(), 2);
+    }
 
     #[test]
     fn equations_are_time_codes_of_beats() {
