@@ -58,6 +58,9 @@ const SMALLER: &str = "smaller smallest shorter shortest";
 
 /// Points mentions of several things at the one of them that the words before tell by its size: `the narrower of the two windows`.
 pub(crate) fn point_by_comparison(prompt: &str, places: Places<'_>, found: &mut [FoundMention]) {
+    if places.objects.is_empty() {
+        return;
+    }
     let words = tokenize(prompt);
     for found in found.iter_mut().filter(|found| found.mention.ids.len() > 1) {
         let Some(first) = words.iter().position(|word| word.span[0] >= found.mention.bytes[0]) else { continue };

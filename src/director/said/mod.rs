@@ -154,6 +154,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     rests::rest_on_each(linked, direction);
     visits::visit_listed(linked, direction);
     ranges::zoom_between_lenses(linked, direction);
+    circles::end_behind_circles(linked, direction);
     circles::close_circles(linked, direction);
     circles::join_said_again(linked, direction);
     take_said_of_pictures(linked, &mut direction.program.steps);
@@ -208,6 +209,7 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     bans::rule_out_turns(linked, &mut direction.program);
     specified::keep_level(linked, &mut direction.program);
     travels::travel_instead_of_turning(linked, &mut direction.program);
+    travels::go_along(linked, &mut direction.program.steps);
     set_off::begin_as_set_off(linked, &mut direction.program.steps);
     nearings::come_nearer_round(linked, direction);
     fixed::stay_put(linked, &mut direction.program);
