@@ -106,10 +106,16 @@ pub(crate) fn direct_beats(
             whole.program.forbidden.push(motion);
         }
     }
-    let total_secs = whole.program.duration_secs.or_else(|| secs_of_shares(timeline));
+    time_beats(linked, timeline, &lengths, &mut whole.program);
+    Ok(whole)
+}
+
+/// Gives the steps of each part their lengths: `lengths` are the first step of each part and the length that its words state.
+fn time_beats(linked: &Linked, timeline: &Timeline, lengths: &[(usize, Option<f64>)], program: &mut Program) {
+    let total_secs = program.duration_secs.or_else(|| secs_of_shares(timeline));
     let (mut all_timed, mut on_the_way_secs) = (true, 0.0);
-    for (nth, (beat, (first, stated))) in timeline.beats.iter().zip(&lengths).enumerate() {
-        let end = lengths.get(nth + 1).map_or(whole.program.steps.len(), |next| next.0);
+    for (nth, (beat, (first, stated))) in timeline.beats.iter().zip(lengths).enumerate() {
+        let end = lengths.get(nth + 1).map_or(program.steps.len(), |next| next.0);
         let secs = secs_of(beat, *stated, total_secs).map(|secs| secs + std::mem::take(&mut on_the_way_secs));
         all_timed &= secs.is_some();
         // The next part says where to.
@@ -118,14 +124,13 @@ pub(crate) fn direct_beats(
             continue;
         }
         if let Some(secs) = secs.filter(|secs| *secs > 0.0) {
-            spread(&mut whole.program.steps[*first..end], secs);
+            spread(&mut program.steps[*first..end], secs);
         }
     }
     // The parts decide how long the film is.
     if all_timed {
-        whole.program.duration_secs = None;
+        program.duration_secs = None;
     }
-    Ok(whole)
 }
 
 /// Whether a part is a picture of one moment, and no rest: `t=0 wide of the vase, t=4 close on it`. Its steps are given.

@@ -103,7 +103,8 @@ pub(crate) fn reverse_retraced(linked: &Linked, steps: &mut [Step]) {
         // A film that has moved nowhere else ends where it began, whichever way it went.
         let is_open = steps[there].either_way && !steps[..there].iter().any(moving);
         if goes_back && steps[nth].end.subjects.is_empty() {
-            steps[nth].end.subjects = steps[there].end.subjects.clone();
+            let circled = steps[there].end.subjects.clone();
+            steps[nth].end.subjects = circled;
         }
         steps[there].either_way = is_open;
         let step = &mut steps[nth];

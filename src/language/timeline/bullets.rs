@@ -29,7 +29,10 @@ const LABELS: [&str; 16] = [
 pub(super) fn bullets(prompt: &str, words: &[Word]) -> Vec<Stamp> {
     let items = (0..words.len()).filter(|at| begins_bullet(prompt, words, *at));
     let stamp = |(number, at): (u32, usize)| {
-        let is_mark = |at: usize| word_at(words, at).chars().all(|letter| BULLETS.contains(&letter));
+        let is_mark = |at: usize| {
+            let written = words.get(at).and_then(|word| prompt.get(word.span[0]..word.span[1])).unwrap_or_default();
+            written.chars().all(|letter| BULLETS.contains(&letter))
+        };
         let text = at + usize::from(is_mark(at));
         let is_label = LABELS.contains(&word_at(words, text)) && word_at(words, text + 1) == ":";
         let end = if is_label { text + 2 } else { text };

@@ -125,7 +125,7 @@ fn cuts(words: &[Word]) -> Vec<Stamp> {
 /// the vase. Hard cuts between.`
 fn cut_list(words: &[Word]) -> Option<(usize, Vec<Stamp>)> {
     let is_end = |at: &usize| matches!(word_at(words, *at), "." | ";" | "!");
-    let last = words.iter().rposition(|word| word.is_alphabetic())?;
+    let last = words.iter().rposition(Word::is_alphabetic)?;
     let end = (0..last).rev().find(is_end)? + 1;
     let is_between =
         |at: usize| matches!(word_at(words, at), "cuts" | "cut") && matches!(word_at(words, at + 1), "between" | "in");
