@@ -71,7 +71,7 @@ struct Words {
     /// What the camera does, in words
     ///
     /// Objects are named by their labels or as <obj-ID>.
-    #[arg(short, long, value_name = "PROMPT", help_heading = heading::SHOT)]
+    #[arg(short, long, value_name = "PROMPT", allow_hyphen_values = true, help_heading = heading::SHOT)]
     prompt: Option<String>,
     /// File of prompts, one shot per line
     ///

@@ -28,7 +28,7 @@ Examples:
 Without --objects and --names, every thing that the sentence names exists.")]
 pub(super) struct Args {
     /// What the camera does, in words
-    #[arg(short, long, value_name = "PROMPT", help_heading = heading::SHOT)]
+    #[arg(short, long, value_name = "PROMPT", allow_hyphen_values = true, help_heading = heading::SHOT)]
     prompt: String,
     /// The scene's objects
     #[arg(long, value_name = "OBJECTS.JSON", help_heading = heading::SHOT, conflicts_with = "names")]

@@ -15,6 +15,12 @@ use crate::said::{asks_for, is_form};
 /// Words that begin a part that holds where the part before arrives.
 const LANDS: [&str; 6] = ["land", "lands", "settle", "settles", "rest", "rests"];
 
+/// Words that begin a part where the way of the part before ends.
+const ARRIVES: [&str; 3] = ["arrive", "arrives", "arriving"];
+
+/// Words of a part that only says that the camera is on its way.
+const ON_THE_WAY: [&str; 8] = ["moving", "move", "moves", "travel", "traveling", "travelling", "travels", "transit"];
+
 /// Words of a part that rests.
 const HOLDS: [&str; 8] = ["hold", "static", "stay", "still", "rest", "pause", "freeze", "lock"];
 
@@ -55,6 +61,7 @@ pub(crate) fn direct_beats(
         if is_by_cuts && (direction.program.steps.is_empty() || says_nothing(linked, beat)) {
             return read(linked);
         }
+        rest_on_arrival(linked, beat, &whole.program.steps, &mut direction.program.steps);
         land(&mut whole.program.steps, &direction.program.steps);
         carry_on(&mut direction, &mut subjects);
         if is_moment(linked, timeline, beat, &direction.program.steps) && arrive(&mut whole, &direction, beat) {
@@ -99,21 +106,31 @@ pub(crate) fn direct_beats(
             whole.program.forbidden.push(motion);
         }
     }
-    let total_secs = whole.program.duration_secs;
-    let mut all_timed = true;
-    for (nth, (beat, (first, stated))) in timeline.beats.iter().zip(&lengths).enumerate() {
-        let end = lengths.get(nth + 1).map_or(whole.program.steps.len(), |next| next.0);
-        let secs = secs_of(beat, *stated, total_secs);
+    time_beats(linked, timeline, &lengths, &mut whole.program);
+    Ok(whole)
+}
+
+/// Gives the steps of each part their lengths: `lengths` are the first step of each part and the length that its words state.
+fn time_beats(linked: &Linked, timeline: &Timeline, lengths: &[(usize, Option<f64>)], program: &mut Program) {
+    let total_secs = program.duration_secs.or_else(|| secs_of_shares(timeline));
+    let (mut all_timed, mut on_the_way_secs) = (true, 0.0);
+    for (nth, (beat, (first, stated))) in timeline.beats.iter().zip(lengths).enumerate() {
+        let end = lengths.get(nth + 1).map_or(program.steps.len(), |next| next.0);
+        let secs = secs_of(beat, *stated, total_secs).map(|secs| secs + std::mem::take(&mut on_the_way_secs));
         all_timed &= secs.is_some();
+        // The next part says where to.
+        if *first == end && is_on_the_way(linked, beat) {
+            on_the_way_secs = secs.unwrap_or_default();
+            continue;
+        }
         if let Some(secs) = secs.filter(|secs| *secs > 0.0) {
-            spread(&mut whole.program.steps[*first..end], secs);
+            spread(&mut program.steps[*first..end], secs);
         }
     }
     // The parts decide how long the film is.
     if all_timed {
-        whole.program.duration_secs = None;
+        program.duration_secs = None;
     }
-    Ok(whole)
 }
 
 /// Whether a part is a picture of one moment, and no rest: `t=0 wide of the vase, t=4 close on it`. Its steps are given.
@@ -206,6 +223,21 @@ fn without_start(linked: &Linked, [from, to]: [usize; 2]) -> Option<[usize; 2]> 
     words.next().filter(|_| starts).map(|(_, span)| [span[0], to])
 }
 
+/// Shortest part of a film that states only shares, and the longest such film; seconds.
+const LEAST_SHARE_SECS: f64 = 3.0;
+const MOST_SHARED_SECS: f64 = 30.0;
+
+/// The length of a film of which all parts are shares: the shortest part has time enough.
+fn secs_of_shares(timeline: &Timeline) -> Option<f64> {
+    let share = |beat: &Beat| match beat.length {
+        Some(BeatLength::Share(share)) if share > 0.0 => Some(share),
+        _ => None,
+    };
+    let shares: Option<Vec<f64>> = timeline.beats.iter().map(share).collect();
+    let least = shares?.into_iter().reduce(f64::min)?;
+    Some((LEAST_SHARE_SECS / least).min(MOST_SHARED_SECS))
+}
+
 /// The length of a part. `stated_secs` is what its own words say, `total_secs` the length of the film.
 fn secs_of(beat: &Beat, stated_secs: Option<f64>, total_secs: Option<f64>) -> Option<f64> {
     match beat.length {
@@ -231,6 +263,23 @@ fn spread(steps: &mut [Step], secs: f64) {
     for step in steps {
         step.duration_secs = Some(step.duration_secs.map_or(rest, |own| own * scale));
     }
+}
+
+/// Rests where the way of the part before ends: `0:07 passing the jar | 0:10 arrive at the ladles`.
+fn rest_on_arrival(linked: &Linked, beat: &Beat, before: &[Step], part: &mut [Step]) {
+    let opening = linked.words_in(beat.bytes).map(|(word, _)| word).find(|word| word.starts_with(char::is_alphabetic));
+    let arrives = beat.secs().is_some() && opening.is_some_and(|word| ARRIVES.contains(&word));
+    let is_open = |step: &Step| step.movement != Move::Static && step.end == Framing::default();
+    let first = part.first_mut().filter(|first| matches!(first.movement, Move::Follow | Move::PushIn));
+    if let Some(first) = first.filter(|_| arrives && before.last().is_some_and(is_open)) {
+        first.movement = Move::Static;
+    }
+}
+
+/// Whether a part only says that the camera moves: `0:03 moving.`
+fn is_on_the_way(linked: &Linked, beat: &Beat) -> bool {
+    let words = linked.texts_in(beat.bytes);
+    !words.is_empty() && words.iter().all(|word| ON_THE_WAY.contains(word) || !word.starts_with(char::is_alphanumeric))
 }
 
 /// A turn or a travel without an end goes to what the next part holds on: `0:03 pan right | 0:06 land on the vase`.

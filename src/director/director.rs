@@ -4,7 +4,7 @@ use std::path::Path;
 
 use cinesplat_language::{
     Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, is_no_thing, link_parts, part_of,
-    scenery, tokenize, without_arrows, without_camera_settings, without_dictation, without_frame_shape,
+    scenery, tokenize, without_arrows, without_camera_settings, without_dictation, without_frame_shape, without_slate,
     without_tolerances,
 };
 use cinesplat_objects::{Object, only_whole};
@@ -29,17 +29,19 @@ use crate::hung::name_pictures;
 use crate::inputs::{Grounding, Prompt, encode_text, object_input, other_objects};
 use crate::keys::{boundaries_of, steps_of};
 use crate::lacking::name_lacking;
+use crate::lettered::name_lettered;
 use crate::likeness::join_likenesses;
 use crate::located::absorb_places;
 use crate::model::Model;
 use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
+use crate::numbered_lists::name_numbered;
 use crate::pairs::name_pairs;
 use crate::placed::{Places, point_by_places};
 use crate::said::{frame_parts, pan_from_first_to_last, take_said, take_said_of_all};
 use crate::said_again::point_to_said;
 use crate::scan_parts::{described_part, own_parts};
-use crate::sized::point_by_size;
+use crate::sized::{point_by_comparison, point_by_size};
 use crate::times::ListedTimes;
 use crate::told::without_told;
 use crate::uses::name_by_uses;
@@ -122,6 +124,7 @@ impl Director {
     ) -> Result<Linked, DirectorError> {
         check_prompt(prompt)?;
         let prompt = &*without_dictation(prompt);
+        let prompt = &*without_slate(prompt);
         let prompt = &*without_frame_shape(prompt, objects);
         let prompt = &*without_camera_settings(prompt)?;
         let prompt = &*without_tolerances(prompt);
@@ -134,6 +137,9 @@ impl Director {
         let is_blank = |at: usize| scenery.iter().any(|[start, end]| (*start..*end).contains(&at));
         found.retain(|found| !is_blank(found.mention.bytes[0]));
         drop_sizes(prompt, objects, &mut found);
+        name_numbered(prompt, objects, &mut found);
+        let defined = name_lettered(prompt, objects, &mut found);
+        let prompt = &*blanked(prompt, &defined);
         name_by_label_words(prompt, objects, &mut found);
         name_by_uses(prompt, objects, &mut found);
         name_banned(prompt, objects, &mut found);
@@ -144,6 +150,7 @@ impl Director {
         point_by_words(prompt, objects, &mut found);
         point_to_said(prompt, objects, &mut found);
         point_by_size(prompt, objects, places, &mut found);
+        point_by_comparison(prompt, places, &mut found);
         point_by_places(prompt, objects, places, &mut found);
         let led = name_pairs(prompt, objects, places, &mut found);
         let prompt = &*blanked(prompt, &led);

@@ -12,7 +12,10 @@ use crate::names::FoundMention;
 /// What stands in rooms and means nothing else to somebody who films.
 const FURNISHINGS: &str = "bed sofa couch settee desk piano fridge refrigerator freezer oven stove cooker sink toaster microwave \
     kettle dishwasher wardrobe bookcase bookshelf dresser sideboard nightstand fireplace television tv telly bathtub toilet cot crib \
-    cradle hammock aquarium cat dog horse motorbike bicycle chandelier armchair";
+    cradle hammock aquarium cat dog horse motorbike bicycle chandelier armchair gramophone phonograph jukebox harp cello violin accordion typewriter";
+/// Those of them that nobody calls anything else that stands in a room.
+const UNMISTAKABLE: &str = "piano fireplace bathtub toilet cot hammock aquarium dog horse motorbike bicycle gramophone phonograph jukebox \
+    harp cello violin accordion typewriter";
 /// Kinds of things that are not much alike.
 const BROAD: &str = "furniture appliance instrument animal machine device container storage";
 /// Words before a thing that is there.
@@ -40,6 +43,9 @@ pub(crate) fn name_lacking(
     for at in 1..words.len() {
         let Some(first) = phrase_start(&words, at) else { continue };
         let bytes = [words[first].span[0], words[at].span[1]];
+        if is_listed(UNMISTAKABLE, &words[at].text) {
+            mistake_nothing(objects, &words[at], [words[first - 1].span[0], bytes[0]], found)?;
+        }
         if is_linked(found, bytes) || objects.iter().any(|object| is_called(object, &words[at])) {
             continue;
         }
@@ -50,6 +56,22 @@ pub(crate) fn name_lacking(
         };
         let place = found.partition_point(|other| other.mention.bytes[0] < bytes[0]);
         found.insert(place, FoundMention { mention: Mention { bytes, ids }, probability: 1.0, nearest });
+    }
+    Ok(())
+}
+
+/// Takes the thing from the mention that begins at one of two bytes with such a noun, where it is related to nothing of that name.
+fn mistake_nothing(
+    objects: &[NamedObject],
+    noun: &Word,
+    starts: [usize; 2],
+    found: &mut [FoundMention],
+) -> Result<(), DirectorError> {
+    let is_own = |found: &&mut FoundMention| starts.contains(&found.mention.bytes[0]) && !found.mention.ids.is_empty();
+    let Some(found) = found.iter_mut().find(is_own) else { return Ok(()) };
+    if !objects.iter().any(|object| is_called(object, noun)) {
+        found.mention.ids.clear();
+        found.nearest = nearest_names(&noun.text, objects)?;
     }
     Ok(())
 }
@@ -115,6 +137,11 @@ mod tests {
             [("bed".to_owned(), vec![]), ("old piano".to_owned(), vec![])]
         );
         assert_eq!(named("creep over to the desk"), [("desk".to_owned(), vec![3])]);
+        let prompt = "across to the piano where she used to play";
+        let mention = Mention { bytes: [10, prompt.len()], ids: vec![1] };
+        let mut found = vec![FoundMention { mention, probability: 0.5, nearest: Vec::new() }];
+        name_lacking(prompt, &objects, &mut found).unwrap();
+        assert_eq!((found.len(), found[0].mention.ids.len()), (1, 0));
         assert_eq!(named("move like the cat, from the dog's eye level, to the armchair"), []);
         assert_eq!(named("as quiet as a bed"), []);
     }

@@ -50,6 +50,53 @@ pub(crate) fn point_by_size(prompt: &str, objects: &[NamedObject], places: Place
     }
 }
 
+/// Words of the wider and the narrower one of two.
+const WIDER: &str = "wider widest broader broadest";
+const NARROWER: &str = "narrower narrowest slimmer";
+const BIGGER: &str = "bigger biggest larger largest taller tallest";
+const SMALLER: &str = "smaller smallest shorter shortest";
+
+/// Points mentions of several things at the one of them that the words before tell by its size: `the narrower of the two windows`.
+pub(crate) fn point_by_comparison(prompt: &str, places: Places<'_>, found: &mut [FoundMention]) {
+    if places.objects.is_empty() {
+        return;
+    }
+    let words = tokenize(prompt);
+    for found in found.iter_mut().filter(|found| found.mention.ids.len() > 1) {
+        let Some(first) = words.iter().position(|word| word.span[0] >= found.mention.bytes[0]) else { continue };
+        let is_joint = |word: &&Word| is_listed("of the these those both two three", &word.text);
+        let joints = words[..first].iter().rev().take_while(is_joint).count();
+        let before = words[..first - joints].last();
+        let says = |list: &str| before.is_some_and(|word| is_listed(list, &word.text));
+        let is_of = words[first - joints..].iter().take(joints + 1).any(|word| word.text == "of");
+        let is_width = says(WIDER) || says(NARROWER);
+        let is_most = says(WIDER) || says(BIGGER);
+        if !is_of || !(is_width || is_most || says(SMALLER)) {
+            continue;
+        }
+        let size = |id: &u32| {
+            let object = places.objects.iter().find(|object| object.id == *id);
+            object.map_or(0.0, |object| if is_width { width(object, places) } else { object.radius() })
+        };
+        let ids = found.mention.ids.iter().copied();
+        let best = if is_most {
+            ids.max_by(|a, b| size(a).total_cmp(&size(b)))
+        } else {
+            ids.min_by(|a, b| size(a).total_cmp(&size(b)))
+        };
+        if let (Some(best), Some(before)) = (best, before) {
+            found.mention.ids = vec![best];
+            found.mention.bytes[0] = before.span[0];
+        }
+    }
+}
+
+/// How far an object reaches sideways, scene units.
+fn width(object: &Object, places: Places<'_>) -> f64 {
+    let [bottom, top] = object.span_along(places.up);
+    (object.radius().powi(2) - (0.5 * (top - bottom)).powi(2)).max(0.0).sqrt()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -77,5 +124,22 @@ mod tests {
         assert_eq!(pointed("the small plant", 1), [1]);
         assert_eq!(pointed("the bigger blue mug", 3), [4]);
         assert_eq!(pointed("the blue mug", 3), [3]);
+    }
+
+    #[test]
+    fn the_narrower_of_two_is_told_by_its_width() {
+        let boxes = [(1, "window 1", DVec3::new(2.0, 1.0, 0.1)), (2, "window 2", DVec3::new(1.0, 4.0, 0.1))];
+        let objects = boxes.map(|(id, label, half)| Object::from_box(id, label, DVec3::ZERO, half));
+        let pointed = |prompt: &str| {
+            let start = prompt.find("windows").unwrap();
+            let mention = Mention { bytes: [start, start + 7], ids: vec![1, 2] };
+            let mut found = [FoundMention { mention, probability: 1.0, nearest: Vec::new() }];
+            point_by_comparison(prompt, Places { objects: &objects, up: DVec3::Y }, &mut found);
+            found[0].mention.ids.clone()
+        };
+        assert_eq!(pointed("go to the narrower of the two windows"), [2]);
+        assert_eq!(pointed("go to the larger of the windows"), [2]);
+        assert_eq!(pointed("go to the wider of both windows"), [1]);
+        assert_eq!(pointed("make it narrower, show the two windows"), [1, 2]);
     }
 }

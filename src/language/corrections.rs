@@ -27,6 +27,8 @@ const CORRECTIONS: [&[&str]; 17] = [
 ];
 /// Most words of a denial in brackets.
 const MAX_DENIED: usize = 6;
+/// Most words of a phrase with a preposition.
+const MAX_PHRASE: usize = 4;
 /// Marks that may stand among the words of a correction and around them.
 const MARKS: [&str; 8] = [",", ".", "-", ":", ";", "\u{2026}", "\u{2013}", "\u{2014}"];
 /// Verbs that begin a phrase which is said once more: `push in on the jar, scratch that, push in on the mug`.
@@ -161,7 +163,13 @@ pub(super) fn correction_at(words: &[&str], at: usize) -> Option<[usize; 2]> {
             (words.get(next) == Some(wanted)).then_some(next + 1)
         })
     };
-    let end = CORRECTIONS.iter().find_map(end_of)?;
+    // `The abstract... no, on the easel`.
+    let breaks_off = || {
+        let before = |back: usize| at.checked_sub(back).and_then(|at| words.get(at)).copied().unwrap_or_default();
+        let is_broken = matches!(before(1), "\u{2026}" | "\u{2014}") || before(1) == "." && before(2) == ".";
+        (words[at] == "no" && is_broken && words.get(at + 1) == Some(&",")).then_some(at + 1)
+    };
+    let end = CORRECTIONS.iter().find_map(end_of).or_else(breaks_off)?;
     let end = end + (end..words.len()).take_while(is_mark).count();
     let end = end + denied_again(words, end);
     let before = (0..at).rev().take_while(is_mark).count();
@@ -195,6 +203,13 @@ fn replaced(before: &[&str], behind: &[&str]) -> Option<usize> {
     let again = verb.and_then(|verb| before.iter().rposition(|word| word == verb));
     if let Some(again) = again.filter(|again| names(&before[*again..])) {
         return Some(again);
+    }
+    // The same preposition just before what is taken back, whatever stood behind it.
+    let preposition = behind.first().filter(|word| PREPOSITIONS.contains(word) && names(behind));
+    let just_before = before.len().saturating_sub(MAX_PHRASE)..before.len();
+    let said = preposition.and_then(|word| just_before.rev().find(|at| before[*at] == *word));
+    if let Some(said) = said.filter(|at| !before[*at..].iter().any(|word| MARKS.contains(word))) {
+        return Some(said);
     }
     let wanted = kinds_from(behind);
     let first = wanted.first().copied().flatten()?;
@@ -235,6 +250,14 @@ mod tests {
         );
         assert_eq!(corrected("hold on <obj-0> , no wait , hold longer"), None);
         assert_eq!(corrected("go left , no wait , go to <obj-0>"), None);
+    }
+
+    #[test]
+    fn who_breaks_off_says_a_phrase_anew() {
+        let easel = Some("past <obj-0> , hold on <obj-1> , then tilt down".to_owned());
+        assert_eq!(corrected("past <obj-0> , hold on the abstract . . . no , on <obj-1> , then tilt down"), easel);
+        assert_eq!(corrected("hold on the abstract \u{2026} no , on <obj-1>").as_deref(), Some("hold on <obj-1>"));
+        assert_eq!(corrected("past <obj-0> . no , on <obj-1>"), None);
     }
 
     #[test]

@@ -18,7 +18,7 @@ const LOOKS: &str = "grade grading graded palette palettes tone tones hue hues t
     glow light lighting contrast highlights shadows wash haze bokeh accents hour lut look scheme split";
 /// Terms of cameras and robots, of which objects are hardly ever the bearers of the name.
 const TERMS: &str = "axis axes objective constraint constraints sensor gimbal goal goals waypoint waypoints target targets \
-    pose poses floorboard floorboards ceiling skirting exhibit exhibits item items element elements position trajectory centroid standoff heading profile profiles silhouette";
+    pose poses floorboard floorboards ceiling skirting exhibit exhibits item items element elements position trajectory centroid standoff heading profile profiles silhouette panel panels";
 /// Words beside such a term.
 const BESIDE: &str = "of the a an his her full exact side left right its each every all any none of both this that next last first no optical";
 /// What comes before `plate` where it is a piece of film.
@@ -199,6 +199,11 @@ fn is_level(words: &[Word], [first, end]: [usize; 2]) -> bool {
     let is_seat = names.len() == 1 && word_at(words, seat) == "seat" && is_height(seat + 1)
         || names.last().is_some_and(|word| word.text == "seat") && names.len() < 4 && is_height(end);
     if is_seat {
+        return true;
+    }
+    // `Skirting-board level` is that of the floor.
+    let is_board = names.len() > 1 && names.iter().all(|word| is_listed("skirting base board -", &word.text));
+    if is_board && is_height(end) {
         return true;
     }
     let is_known = names.last().is_some_and(|word| is_level_name(&word.text)) && names.len() == 1;

@@ -98,7 +98,7 @@ struct ShotSource {
     /// What the camera does, in words
     ///
     /// Objects are named by their labels or as <obj-ID>.
-    #[arg(short, long, value_name = "PROMPT", help_heading = heading::SHOT)]
+    #[arg(short, long, value_name = "PROMPT", allow_hyphen_values = true, help_heading = heading::SHOT)]
     prompt: Option<String>,
     /// File of prompts, one film per line
     ///

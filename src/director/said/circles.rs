@@ -1,8 +1,8 @@
 //! Turns all the way round: `spin all the way around on the spot`, `look right round the whole room`, `one complete turn
 //! around the anvil`.
 
-use cinesplat_language::Linked;
-use cinesplat_operator::{Amount, Framing, Step};
+use cinesplat_language::{Linked, MAX_STEPS};
+use cinesplat_operator::{Amount, Framing, Step, SubjectSide};
 use cinesplat_trajectory::Move;
 
 use super::directions::is_form;
@@ -45,6 +45,45 @@ const CIRCLES: [&str; 14] = [
     "pass",
     "spin",
 ];
+
+/// Verbs of a way that ends somewhere behind a circle.
+const ENDS: [&str; 7] = ["end", "finish", "land", "stop", "settle", "arrive", "halt"];
+
+/// Circles what the step before ends on where the words circle `it` and only then end elsewhere: `swoop up to the lamp, circle it
+/// once and land in front of the fridge`.
+pub(crate) fn end_behind_circles(linked: &Linked, direction: &mut Direction) {
+    for nth in (1..direction.program.steps.len()).rev() {
+        let [before, step] = &direction.program.steps[nth - 1..=nth] else { continue };
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let circled = before.end.subjects.clone();
+        let goal =
+            goal_behind_circle(&words, &|word| linked.slot_at(word)).map(|(id, side)| (linked.expanded(&[id]), side));
+        let Some((goal, is_in_front)) = goal.filter(|(goal, _)| *goal == step.end.subjects) else { continue };
+        let num_steps = direction.program.steps.len();
+        if !step.movement.is_circular() || circled.is_empty() || circled == goal || num_steps >= MAX_STEPS {
+            continue;
+        }
+        let side = is_in_front.then_some(SubjectSide::FromFront);
+        let end = Framing { subjects: goal, side, ..Framing::default() };
+        let way = Step { end, words: step.words, speed: step.speed, ..Step::of(Move::Follow) };
+        direction.program.steps[nth].end = Framing { subjects: circled, ..Framing::default() };
+        direction.insert_rest(nth + 1, way);
+    }
+}
+
+/// The thing at which words end behind a circle about `it`, and whether they end in front of it.
+fn goal_behind_circle(words: &[&str], slot: &dyn Fn(&str) -> Option<u32>) -> Option<(u32, bool)> {
+    let rounds = ["circle", "orbit", "loop", "around", "round", "arc"];
+    let circles =
+        |at: &usize| rounds.iter().any(|verb| is_form(words[*at], verb)) && words[at + 1..].first() == Some(&"it");
+    let circle = (0..words.len()).find(circles)?;
+    let is_end =
+        |at: &usize| ENDS.iter().any(|verb| is_form(words[*at], verb)) && matches!(words[at - 1], "and" | "then" | ",");
+    let end = (circle + 2..words.len()).find(is_end)?;
+    let behind = words.get(end + 1..)?;
+    let at = behind.iter().take(5).position(|word| slot(word).is_some())?;
+    Some((slot(behind[at])?, behind[..at].contains(&"front")))
+}
 
 /// Gives a pan without a goal, or a circle about its subject, a full turn where its words lead all the way round and state
 /// no angle.
@@ -120,5 +159,24 @@ pub(crate) fn close_circles(linked: &Linked, direction: &mut Direction) {
             let one = Step { amount: Some(Amount::Degrees(360.0)), returns: false, words, ..first.clone() };
             direction.join_steps(nth, one);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::{about, direction, linked};
+    use super::*;
+
+    #[test]
+    fn it_is_circled_before_the_way_ends_elsewhere() {
+        let steps = |text: &str| {
+            let steps = vec![about(Move::Follow, &[5], [0, 8]), about(Move::OrbitRight, &[7], [0, text.len()])];
+            let mut direction = direction(steps);
+            end_behind_circles(&linked(text), &mut direction);
+            direction.program.steps.into_iter().map(|step| (step.movement, step.end.subjects)).collect::<Vec<_>>()
+        };
+        let three = vec![(Move::Follow, vec![5]), (Move::OrbitRight, vec![5]), (Move::Follow, vec![7])];
+        assert_eq!(steps("up to <obj-0> , circle it once and land in front of <obj-1>"), three);
+        assert_eq!(steps("up to <obj-0> , circle <obj-1> and end there").len(), 2);
     }
 }

@@ -34,6 +34,9 @@ pub(crate) fn come_in_at_doors(linked: &Linked, objects: &[Object], direction: &
         begin_at_place(linked, objects, first);
     }
     pass_from_door(linked, objects, direction);
+    if let [first, _, ..] = &mut direction.program.steps[..] {
+        move_in_by_door(linked, objects, first);
+    }
     let mut nth = 1;
     while nth < direction.program.steps.len() {
         let [first, second] = &direction.program.steps[nth - 1..=nth] else { break };
@@ -141,6 +144,28 @@ fn begin_at_place(linked: &Linked, objects: &[Object], step: &mut Step) {
         }
     }
     step.via = Some(Via { how: Pass::From, objects: place });
+}
+
+/// Moves into the room from the door by which the words come in at it, and that no step leaves: `come in at the door like a buyer,
+/// glance right at the stove`.
+fn move_in_by_door(linked: &Linked, objects: &[Object], step: &mut Step) {
+    let words = linked.texts_in(step.words.unwrap_or_default());
+    let comes_at = |at: usize| {
+        let comes = is_form(words[at], "come") || is_form(words[at], "walk") || is_form(words[at], "step");
+        let behind = words.get(at + 1..at + 3).is_some_and(|behind| matches!(behind, ["in", "at" | "by"]));
+        let door = words.get(at + 3..)?.iter().find(|word| **word != "the")?;
+        linked.slot_at(door).filter(|_| comes && behind)
+    };
+    let Some(id) = (0..words.len()).find_map(comes_at) else { return };
+    let door = linked.expanded(&[id]);
+    let is_door = door.iter().all(|id| is_called(objects, *id, DOORS));
+    let nears = matches!(step.movement, Move::PushIn | Move::Follow) && step.via.is_none();
+    if is_door && nears && step.end.subjects == door && step.start.subjects.iter().all(|id| door.contains(id)) {
+        step.movement = Move::PushIn;
+        step.start = Framing::default();
+        step.end = Framing { angle: step.end.angle, height: step.end.height, ..Framing::default() };
+        step.via = Some(Via { how: Pass::From, objects: door });
+    }
 }
 
 /// The second step, from the door that the first one only comes in by.

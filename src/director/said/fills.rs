@@ -189,10 +189,59 @@ fn show_part(framing: &mut Framing, part: PartPlace, fills: bool) {
     }
 }
 
+/// Words of a thing that is seen completely, and of what it is seen in.
+const COMPLETELY: [&str; 6] = ["completely", "fully", "entirely", "wholly", "totally", "all"];
+const SEEN: [&str; 8] = ["visible", "in", "seen", "shown", "revealed", "exposed", "displayed", "there"];
+
+/// Ends on all of what the words show completely: `pan left until the shelf is completely visible`.
+pub(crate) fn show_completely(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_shown = |at: usize| {
+            let behind = words.get(at + 1..at + 4);
+            let is_complete = behind.is_some_and(|behind| {
+                matches!(behind[0], "is" | "are" | "'s" | "becomes")
+                    && COMPLETELY.contains(&behind[1])
+                    && SEEN.contains(&behind[2])
+            });
+            let shown = linked.slot_at(words[at]).map(|id| linked.expanded(&[id]));
+            is_complete && shown.is_some_and(|shown| shown == step.end.subjects)
+        };
+        let is_open = step.end.size.is_none() && step.end.height_frac.is_none() && !step.end.hidden;
+        if is_open && (0..words.len()).any(is_shown) {
+            step.end.whole = true;
+        }
+    }
+}
+
+/// Drops the size of a picture that is a thing's own height: `climb to 100 % of its height`.
+pub(crate) fn rise_by_own_height(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_own = words.windows(4).any(|four| {
+            linked.is_quantity(four[0]) && matches!(four[1..], ["of", "its" | "his" | "her" | "their", "height"])
+        });
+        if is_own {
+            step.end.height_frac = None;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::fixture::{about, linked};
     use super::*;
+
+    #[test]
+    fn what_is_completely_visible_is_whole() {
+        let is_whole = |text: &str| {
+            let mut steps = vec![about(Move::PanLeft, &[5], [0, text.len()])];
+            show_completely(&linked(text), &mut steps);
+            steps[0].end.whole
+        };
+        assert!(is_whole("pan left until <obj-0> is completely visible"));
+        assert!(!is_whole("pan left until <obj-0> is visible"));
+    }
 
     fn end_part(text: &str) -> SubjectPart {
         let top = PartPlace { place: "top", is_small: false, heights_percent: None };

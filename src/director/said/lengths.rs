@@ -32,16 +32,38 @@ pub(crate) fn take_total(linked: &Linked, direction: &mut Direction) {
         behind && !text(at + 2).starts_with("<qty")
     };
     let mut totals = (0..words.len()).filter_map(|at| Some((at, linked.secs_at(words[at])?)));
-    let Some((_, secs)) = totals.find(|(at, _)| says_all(at + 1)) else { return };
+    let total = totals.find(|(at, _)| says_all(at + 1)).map(|(_, secs)| secs);
+    let alone = (direction.program.steps.len() > 1).then(|| last_sentence_secs(linked, &words)).flatten();
+    let Some(secs) = total.or(alone) else { return };
     let is_total = |own: f64| (own - secs).abs() < 1e-9;
     let once = linked.quantities.iter().filter(|other| is_total(other.value)).count() == 1;
     let program = &mut direction.program;
-    if program.duration_secs.is_none() && once {
+    if program.duration_secs.is_none_or(is_total) && once {
         program.duration_secs = Some(secs);
         for step in &mut program.steps {
             step.duration_secs = step.duration_secs.filter(|own| !is_total(*own));
         }
     }
+}
+
+/// Words of a last sentence that only says how long the film is: `take about 20 seconds`.
+const TAKES: [&str; 24] = [
+    "take", "takes", "make", "it", "should", "this", "that", "the", "last", "lasting", "run", "runs", "time", "in",
+    "whole", "thing", "film", "clip", "shot", "video", "please", "be", "i", "need",
+];
+
+/// The time of a last sentence that says nothing else.
+fn last_sentence_secs(linked: &Linked, words: &[&str]) -> Option<f64> {
+    let is_end = |word: &&str| matches!(*word, "." | "!" | ";");
+    let mut sentences = words.split(is_end).filter(|sentence| !sentence.is_empty()).rev();
+    let sentence = sentences.next()?;
+    sentences.next()?;
+    let is_length = |word: &&&str| linked.secs_at(word).is_some();
+    let [secs] = sentence.iter().filter(is_length).collect::<Vec<_>>()[..] else { return None };
+    let is_plain =
+        |word: &&str| linked.is_quantity(word) || BESIDE.contains(word) || TAKES.contains(word) || *word == ",";
+    let takes = sentence.iter().any(|word| TAKES.contains(word) || BESIDE.contains(word));
+    (takes && sentence.iter().all(is_plain)).then(|| linked.secs_at(secs)).flatten()
 }
 
 /// Gives the film a length that stands alone in a clause behind all moves: `.., then a slow zoom in on the vase, airy

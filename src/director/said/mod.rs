@@ -11,6 +11,7 @@ mod circles;
 mod contents;
 mod directions;
 mod dolly_zoom;
+mod encores;
 mod endings;
 mod entries;
 mod facing;
@@ -138,6 +139,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     endings::close_onto(linked, steps);
     contents::look_into(linked, steps);
     endings::show_whole(linked, steps);
+    fills::show_completely(linked, steps);
     endings::end_on_place(linked, steps);
     endings::notice_place(linked, steps);
     endings::widen_again(linked, steps);
@@ -149,10 +151,12 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     asides::drop_camera_heights(linked, direction);
     asides::drop_height_subjects(linked, direction);
     asides::drop_light(linked, direction);
-    rests::rest_on_each(linked, direction);
+    fills::rise_by_own_height(linked, &mut direction.program.steps);
     visits::visit_in_turn(linked, direction);
+    rests::rest_on_each(linked, direction);
     visits::visit_listed(linked, direction);
     ranges::zoom_between_lenses(linked, direction);
+    circles::end_behind_circles(linked, direction);
     circles::close_circles(linked, direction);
     circles::join_said_again(linked, direction);
     take_said_of_pictures(linked, &mut direction.program.steps);
@@ -207,6 +211,7 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     bans::rule_out_turns(linked, &mut direction.program);
     specified::keep_level(linked, &mut direction.program);
     travels::travel_instead_of_turning(linked, &mut direction.program);
+    travels::go_along(linked, &mut direction.program.steps);
     set_off::begin_as_set_off(linked, &mut direction.program.steps);
     nearings::come_nearer_round(linked, direction);
     fixed::stay_put(linked, &mut direction.program);
@@ -241,6 +246,7 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     entries::come_in_at_doors(linked, objects, direction);
     specified::skim_tops(linked, objects, &mut direction.program.steps);
     repeats::drop_restated(direction);
+    encores::repeat_all(linked, direction);
     lengths::take_total(linked, direction);
     asides::time_title(linked, &mut direction.program);
     arrivals::end_at_stops(linked, &mut direction.program.steps);
@@ -258,6 +264,7 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     whole_film::take_pace(linked, steps);
     whole_film::size_each(linked, steps);
     whole_film::keep_throughout(linked, &mut direction.program);
+    whole_film::never_lose(linked, &mut direction.program);
     whole_film::avoid_throughout(linked, &mut direction.program);
     named_times::take_named_times(linked, &mut direction.program);
     named_times::merge_named_speeds(linked, direction);

@@ -90,10 +90,24 @@ pub(crate) fn reverse_retraced(linked: &Linked, steps: &mut [Step]) {
         let moving = |step: &Step| step.movement != Move::Static;
         let Some(there) = steps[..nth].iter().rposition(moving) else { continue };
         let (movement, amount) = (steps[there].movement, steps[there].amount);
-        let is_again = as_orbit(movement) == as_orbit(steps[nth].movement) && returns_on_itself(movement);
+        // What goes back to the start of the film takes the way on which it came.
+        let words = linked.texts_in(steps[nth].words.unwrap_or_default());
+        let goes_back = steps[nth].returns
+            && words.iter().any(|word| RETRACES.contains(word) && !word.starts_with("return"))
+            && steps[..nth].iter().filter(|step| moving(step)).count() == 1
+            && matches!(
+                steps[nth].movement,
+                Move::Follow | Move::PullOut | Move::TruckLeft | Move::TruckRight | Move::PushIn
+            );
+        let is_again =
+            (goes_back || as_orbit(movement) == as_orbit(steps[nth].movement)) && returns_on_itself(movement);
         let Some(back) = movement.opposite().filter(|_| is_again) else { continue };
         // A film that has moved nowhere else ends where it began, whichever way it went.
         let is_open = steps[there].either_way && !steps[..there].iter().any(moving);
+        if goes_back && steps[nth].end.subjects.is_empty() {
+            let circled = steps[there].end.subjects.clone();
+            steps[nth].end.subjects = circled;
+        }
         steps[there].either_way = is_open;
         let with = steps[there].with.clone();
         let step = &mut steps[nth];

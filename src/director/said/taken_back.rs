@@ -27,10 +27,14 @@ pub(crate) fn drop_taken_back(linked: &Linked, direction: &mut Direction) {
     let texts: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
     for (at, name) in (0..texts.len()).filter_map(|at| Some((at, taken_back_at(&texts, at)?))) {
         let byte = words[at].1[0];
-        let is_named = |movement: &Move| names(name, *movement);
+        let is_named = |movement: &Move| names(name, *movement) || names_way(name, *movement);
         for nth in (0..direction.program.steps.len()).rev() {
             let num_steps = direction.program.steps.len();
             let step = &mut direction.program.steps[nth];
+            // A way that a clause adds to the next one is said in neither.
+            if matches!(name, "up" | "down") {
+                step.with.retain(|movement| !is_named(movement));
+            }
             // What is taken back was said before.
             if step.words.is_none_or(|[from, _]| from >= byte) {
                 continue;
@@ -55,7 +59,9 @@ fn taken_back_at<'a>(words: &[&'a str], at: usize) -> Option<&'a str> {
     let word = |at: usize| words.get(at).copied().unwrap_or_default();
     let (_, particle) = BACK.iter().find(|(verb, _)| *verb == word(at))?;
     // `Never drop the pan` takes nothing back.
-    if words[at.saturating_sub(3)..at].iter().any(|word| DENIALS.contains(word)) {
+    // .. and `no scrap the up` does.
+    let said = if at > 0 && words[at - 1] == "no" { at - 1 } else { at };
+    if words[said.saturating_sub(3)..said].iter().any(|word| DENIALS.contains(word)) {
         return None;
     }
     let next = at + 1 + usize::from(!particle.is_empty() && word(at + 1) == *particle);
@@ -88,6 +94,15 @@ pub(super) fn names(word: &str, movement: Move) -> bool {
     }
 }
 
+/// Whether a word names the way of a rise or a descent: `scrap the up`.
+fn names_way(word: &str, movement: Move) -> bool {
+    match movement {
+        Move::CraneUp | Move::PedestalUp | Move::TiltUp => word == "up",
+        Move::CraneDown | Move::PedestalDown | Move::TiltDown => word == "down",
+        _ => false,
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -99,6 +114,8 @@ mod tests {
             (0..words.len()).find_map(|at| taken_back_at(&words, at).map(str::to_owned))
         };
         assert_eq!(says("crane up while orbiting <obj-0> ; actually leave out the orbit").as_deref(), Some("orbit"));
+        assert_eq!(says("out and up . . . no scrap the up , just out").as_deref(), Some("up"));
+        assert!(names_way("up", Move::CraneUp) && !names_way("up", Move::CraneDown));
         assert_eq!(says("leave the zoom out .").as_deref(), Some("zoom"));
         assert_eq!(says("pan to <obj-0> , skip the zoom").as_deref(), Some("zoom"));
         assert_eq!(says("drop the camera to the floor"), None);

@@ -3,7 +3,7 @@
 //! No turn is as long as a meter, and who rules turns out asks for none.
 
 use cinesplat_language::{Linked, QuantityKind, is_listed};
-use cinesplat_operator::{Amount, Motion, Program, Step};
+use cinesplat_operator::{Amount, Framing, Motion, Pass, Program, Step, Via};
 use cinesplat_trajectory::Move;
 
 use super::directions::is_form;
@@ -28,6 +28,28 @@ pub(crate) fn travel_instead_of_turning(linked: &Linked, program: &mut Program) 
         let is_ruled_out = is_banned && !asks_for_turn(&words) && words.contains(&side(step.movement));
         if is_length(linked, step, &words) || is_ruled_out {
             (step.movement, step.either_way) = (travel, false);
+        }
+    }
+}
+
+/// Goes along what the network begins a way in at where the words go along it: `move forward along the length of the table, keeping
+/// the vase centered`.
+pub(crate) fn go_along(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_open =
+            step.via.is_none() && step.start == Framing { subjects: step.start.subjects.clone(), ..Framing::default() };
+        let goes = matches!(step.movement, Move::PushIn | Move::Follow) && is_open;
+        let is_along = |at: usize| {
+            let rest = words[at + 1..].iter().find(|word| !is_listed("the whole full length of side edge", word));
+            words[at] == "along"
+                && rest
+                    .and_then(|word| linked.slot_at(word))
+                    .is_some_and(|id| linked.expanded(&[id]) == step.start.subjects)
+        };
+        if goes && !step.start.subjects.is_empty() && (0..words.len()).any(is_along) {
+            let objects = std::mem::take(&mut step.start.subjects);
+            step.via = Some(Via { how: Pass::Along, objects });
         }
     }
 }
@@ -89,6 +111,18 @@ mod tests {
         let mut program = Program { steps, forbidden: forbidden.to_vec(), ..Program::default() };
         travel_instead_of_turning(&linked, &mut program);
         program.steps[0].movement
+    }
+
+    #[test]
+    fn a_way_along_a_thing_does_not_begin_at_it() {
+        let along = |text: &str| {
+            let start = Framing { subjects: vec![5], ..Framing::default() };
+            let mut steps = vec![Step { start, words: Some([0, text.len()]), ..Step::of(Move::PushIn) }];
+            go_along(&linked(text), &mut steps);
+            steps[0].via.as_ref().map(|via| via.objects.clone())
+        };
+        assert_eq!(along("move forward along the length of <obj-0> to <obj-1>"), Some(vec![5]));
+        assert_eq!(along("move forward from <obj-0> along to <obj-1>"), None);
     }
 
     #[test]

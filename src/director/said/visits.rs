@@ -53,12 +53,14 @@ pub(crate) fn visit_listed(linked: &Linked, direction: &mut Direction) {
 }
 
 /// Words that show several things one after the other.
-const IN_TURN: [&[&str]; 6] = [
+const IN_TURN: [&[&str]; 8] = [
     &["one", "after", "the", "other"],
     &["one", "after", "another"],
     &["one", "by", "one"],
     &["in", "turn"],
     &["each", "in", "turn"],
+    &["in", "sequence"],
+    &["in", "succession"],
     &["individually"],
 ];
 
@@ -75,7 +77,9 @@ pub(crate) fn visit_in_turn(linked: &Linked, direction: &mut Direction) {
         if !(is_picture && is_open && is_list && says_any(&words, &IN_TURN)) {
             continue;
         }
-        let framed = |id: u32| Framing { subjects: vec![id], ..Framing::default() };
+        let distance = take_echoes(linked, direction, nth, &shown);
+        let step = &direction.program.steps[nth];
+        let framed = |id: u32| Framing { subjects: vec![id], distance, ..Framing::default() };
         let way = |(nth, id): (usize, &u32)| Step {
             movement: if nth == 0 { Move::Static } else { Move::Follow },
             end: framed(*id),
@@ -91,6 +95,23 @@ pub(crate) fn visit_in_turn(linked: &Linked, direction: &mut Direction) {
         }
         direction.step_cameras.clear();
     }
+}
+
+/// Removes what is said of all things of a list behind it as if they were one picture: `visit the four plates in turn, dwell at
+/// each, keep half a metre away`. The distance from them is left.
+fn take_echoes(linked: &Linked, direction: &mut Direction, nth: usize, shown: &[u32]) -> Option<f64> {
+    let is_all = |step: &Step| {
+        let rests = matches!(step.movement, Move::Static | Move::Follow | Move::PushIn);
+        let is_open = step.start.subjects.is_empty() || linked.expanded(&step.start.subjects) == shown;
+        let subjects = linked.expanded(&step.end.subjects);
+        rests && is_open && (subjects == shown || subjects.is_empty() && step.movement == Move::Static)
+    };
+    let mut distance = direction.program.steps[nth].end.distance;
+    while direction.program.steps.get(nth + 1).is_some_and(is_all) {
+        distance = distance.or(direction.program.steps[nth + 1].end.distance);
+        direction.remove_step(nth + 1);
+    }
+    distance
 }
 
 /// A rest on each place in order, with a way between two of them, and a way out to all where the words take in the whole.

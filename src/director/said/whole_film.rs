@@ -64,8 +64,18 @@ pub(crate) fn avoid_throughout(linked: &Linked, program: &mut Program) {
 /// The things of `never show the palm`, which the network leaves out behind other clauses.
 fn never_shown(linked: &Linked) -> Vec<u32> {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
-    let named = words.windows(3).filter(|three| three[..2] == ["never", "show"]);
-    named.filter_map(|three| linked.slot_at(three[2])).filter(|id| linked.missing(*id).is_none()).collect()
+    let named = words.windows(3).filter(|three| three[..2] == ["never", "show"]).map(|three| three[2]);
+    let outside = (0..words.len()).filter_map(|at| kept_out_at(&words[at..]));
+    named.chain(outside).filter_map(|word| linked.slot_at(word)).filter(|id| linked.missing(*id).is_none()).collect()
+}
+
+/// The thing of words that begin with `keep the television out of it`.
+fn kept_out_at<'a>(words: &[&'a str]) -> Option<&'a str> {
+    let keeps = matches!(words.first(), Some(&("keep" | "leave" | "keeping" | "leaving")));
+    let thing = 1 + usize::from(matches!(words.get(1), Some(&("the" | "that"))));
+    let out = words.get(thing + 1..thing + 3)? == ["out", "of"];
+    let place = words[thing + 3..].iter().find(|word| **word != "the")?;
+    (keeps && out && (*place == "it" || VIEWS.contains(place))).then(|| words[thing])
 }
 
 /// Words of a sentence that keeps a thing in view, and of what it is kept in.
@@ -98,6 +108,29 @@ pub(crate) fn keep_throughout(linked: &Linked, program: &mut Program) {
             }
         }
     }
+}
+
+/// Keeps in view what the words say never to lose: `don't lose the stones before the end`.
+pub(crate) fn never_lose(linked: &Linked, program: &mut Program) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    for id in (0..words.len()).filter_map(|at| linked.slot_at(never_lost_at(&words, at)?)) {
+        for id in linked.expanded(&[id]) {
+            for step in &mut program.steps {
+                let is_shown = step.end.subjects.contains(&id) || step.keep.contains(&id) || step.avoid.contains(&id);
+                if !is_shown && linked.missing(id).is_none() {
+                    step.keep.push(id);
+                }
+            }
+        }
+    }
+}
+
+/// The thing of `don't lose sight of the stones` where `lose` is word `at` and begins no sentence.
+fn never_lost_at<'a>(words: &[&'a str], at: usize) -> Option<&'a str> {
+    let denied = ["never", "not", "'t", "n't", "dont", "without"];
+    let is_lost = matches!(words[at], "lose" | "losing") && at > 0 && denied.contains(&words[at - 1]);
+    let thing = words.get(at + 1..)?.iter().find(|word| !matches!(**word, "sight" | "of" | "the"))?;
+    is_lost.then_some(*thing)
 }
 
 /// Whether a sentence that names nothing before this thing rules it out, or one that says so of the whole film.
@@ -240,6 +273,17 @@ pub(crate) fn size_each(linked: &Linked, steps: &mut [Step]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn sentences_keep_things_in_and_out() {
+        let out = |text: &str| kept_out_at(&text.split(' ').collect::<Vec<_>>()).map(str::to_owned);
+        assert_eq!(out("keep the <obj-0> out of it , please").as_deref(), Some("<obj-0>"));
+        assert_eq!(out("keep <obj-0> out of the shot").as_deref(), Some("<obj-0>"));
+        assert_eq!(out("keep <obj-0> out of the box"), None);
+        let lost = |text: &str, at| never_lost_at(&text.split(' ').collect::<Vec<_>>(), at).map(str::to_owned);
+        assert_eq!(lost("don 't lose the <obj-0> before the end", 2).as_deref(), Some("<obj-0>"));
+        assert_eq!(lost("we lose <obj-0>", 1), None);
+    }
 
     #[test]
     fn a_sentence_says_the_pace_of_the_film() {

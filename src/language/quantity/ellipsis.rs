@@ -41,7 +41,12 @@ fn unit_before(words: &[Word], i: usize, end: usize) -> Option<(QuantityKind, f6
     let in_list = before == "," && matches!(word_at(words, end), "," | "." | "" | "and" | "then");
     let is_direction =
         begins_clause(words, i) && matches!(word_at(words, end), "up" | "down" | "back" | "off" | "high");
-    if !(is_end && ends_phrase(words, end) || in_list || is_direction) {
+    // `One metre forward, two to the right`.
+    let is_aside = begins_clause(words, i)
+        && word_at(words, end) == "to"
+        && matches!(word_at(words, end + 1), "the" | "your" | "its")
+        && matches!(word_at(words, end + 2), "left" | "right");
+    if !(is_end && ends_phrase(words, end) || in_list || is_direction || is_aside) {
         return None;
     }
     let first = i.saturating_sub(LOOK_BACK);

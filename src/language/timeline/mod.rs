@@ -2,13 +2,16 @@
 //!
 //! Enters: the words of a prompt. Leaves: its beats, each with its bytes and its length where that is stated: `0-3s
 //! wide, 3-6s the lamp`, `0:00 hold | 0:04 push in`, `T+0 .. T+3 ..`, `3s orbit, 2s hold`, `first third: ..`, `1) .. 2)
-//! ..`, `.. cut to ..`. A prompt with fewer than two beats is no timeline. The text before the first beat is the
+//! ..`, `.. cut to ..`, lines with dashes. A prompt with fewer than two beats is no timeline. The text before the first beat is the
 //! introduction.
 
+mod bullets;
 mod holds;
+mod shares;
 mod stamp;
 
 use super::tokenizer::{Word, span_of, word_at};
+use bullets::bullets;
 use holds::move_behind_hold;
 use stamp::{Stamp, StampKind, begins_item, cut_at, stamp_at};
 
@@ -77,7 +80,9 @@ pub(crate) fn timeline(prompt: &str, words: &[Word]) -> Option<Timeline> {
         }
         is_sequence(words, &stamps).then(|| beats_of(words, &stamps)).flatten()
     });
-    listed.or_else(|| beats_of(words, &cuts(words)))
+    let lines = || beats_of(words, &bullets(prompt, words));
+    let pictures = || cut_list(words).and_then(|(end, stamps)| beats_of(&words[..end], &stamps));
+    listed.or_else(lines).or_else(pictures).or_else(|| beats_of(words, &cuts(words)))
 }
 
 /// Words before a number that make it no number of a list: `pan to chair 2.`, `hold for 2.`.
@@ -116,6 +121,20 @@ fn cuts(words: &[Word]) -> Vec<Stamp> {
     if cuts.is_empty() || cuts.len() >= MAX_BEATS { Vec::new() } else { [vec![opening], cuts].concat() }
 }
 
+/// The sentences of a prompt of which the last one says that cuts lie between them, and the word behind them: `Wide. Close on
+/// the vase. Hard cuts between.`
+fn cut_list(words: &[Word]) -> Option<(usize, Vec<Stamp>)> {
+    let is_end = |at: &usize| matches!(word_at(words, *at), "." | ";" | "!");
+    let last = words.iter().rposition(Word::is_alphabetic)?;
+    let end = (0..last).rev().find(is_end)? + 1;
+    let is_between =
+        |at: usize| matches!(word_at(words, at), "cuts" | "cut") && matches!(word_at(words, at + 1), "between" | "in");
+    let says_so = (end..words.len().min(end + 4)).any(is_between) && word_at(words, end) != "no";
+    let starts = [0].into_iter().chain((0..end - 1).filter(is_end).map(|at| at + 1));
+    let stamps: Vec<Stamp> = starts.map(|at| Stamp { at, end: at, kind: StampKind::Cut }).collect();
+    (says_so && (2..MAX_BEATS).contains(&stamps.len())).then_some((end, stamps))
+}
+
 /// Whether stamps of one kind are a timeline: in order, and so that the first begins the list.
 fn is_sequence(words: &[Word], stamps: &[Stamp]) -> bool {
     let [first, .., _] = stamps else { return false };
@@ -130,7 +149,11 @@ fn is_sequence(words: &[Word], stamps: &[Stamp]) -> bool {
         (before, after) => before.start_secs() + 1e-3 < after.start_secs(),
     });
     match first.kind {
-        StampKind::Number(number) => in_order && number == 1,
+        // `Panel 12, .. panel 13, ..` is a piece of a longer list.
+        StampKind::Number(number) => {
+            let is_named = |stamp: &Stamp| matches!(word_at(words, stamp.at), "panel" | "shot" | "setup" | "beat");
+            in_order && (number == 1 || stamps.iter().all(is_named))
+        }
         StampKind::Span(start, _) | StampKind::Point(start) => {
             in_order && (start == 0.0 || stamps.len() > 2 || first.at == 0)
         }
@@ -159,7 +182,7 @@ fn beats_of(words: &[Word], stamps: &[Stamp]) -> Option<Timeline> {
         };
         let is_last = nth + 1 == stamps.len();
         let is_end = is_last
-            && matches!(stamp.kind, StampKind::Point(_) | StampKind::Cut)
+            && matches!(stamp.kind, StampKind::Point(_) | StampKind::Number(_) | StampKind::Cut)
             && words[text[0]..text[1]]
                 .iter()
                 .all(|word| ENDINGS.contains(&word.text.as_str()) || !word.is_alphabetic());
@@ -245,6 +268,20 @@ fn trimmed(words: &[Word], start: usize, end: usize) -> [usize; 2] {
 mod tests {
     use super::*;
     use crate::mention::link_mentions;
+
+    #[test]
+    fn sentences_with_cuts_between_are_pictures() {
+        let parts = |prompt: &str| -> Vec<(String, bool)> {
+            let timeline = link_mentions(prompt, &[]).unwrap().timeline;
+            let beats = timeline.map(|timeline| timeline.beats).unwrap_or_default();
+            beats.iter().map(|beat| (prompt[beat.bytes[0]..beat.bytes[1]].to_owned(), beat.cut)).collect()
+        };
+        let three = [("Wide first", false), ("Medium of the chair", true), ("Close on the vase", true)];
+        let three = three.map(|(text, cut)| (text.to_owned(), cut));
+        assert_eq!(parts("Wide first. Medium of the chair. Close on the vase. Hard cuts between, no moves."), three);
+        assert_eq!(parts("Wide first. Close on the vase. No cuts between."), []);
+        assert_eq!(parts("Panel 12, low. Panel 13, over it.").len(), 2);
+    }
 
     #[test]
     fn equations_are_time_codes_of_beats() {

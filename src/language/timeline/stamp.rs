@@ -1,5 +1,6 @@
 //! What a part of a timeline begins with.
 
+use super::shares::share_at;
 use crate::numerals::{cardinal_at, number_word};
 use crate::quantity::{Instant, InstantForm, QuantityKind, frames_per_sec, instant_at, is_joined, link_at, unit};
 use crate::tokenizer::{Word, word_at};
@@ -230,27 +231,14 @@ fn begins_work(words: &[Word], end: usize) -> bool {
     )
 }
 
-/// `first third`, `middle half`: the word after it, and the fraction.
-fn share_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
-    let i = i + usize::from(word_at(words, i) == "the");
-    let is_ordinal = matches!(
-        word_at(words, i),
-        "first" | "second" | "third" | "fourth" | "middle" | "next" | "last" | "final" | "opening" | "closing"
-    );
-    let share = match word_at(words, i + 1) {
-        "half" => 1.0 / 2.0,
-        "third" => 1.0 / 3.0,
-        "quarter" => 1.0 / 4.0,
-        _ => return None,
-    };
-    (is_ordinal && matches!(word_at(words, i + 2), ":" | "," | "is")).then_some((i + 3, share))
-}
-
 /// What the parts of a list are called.
 const LABELS: [&str; 15] = [
     "shot", "beat", "step", "part", "move", "frame", "pos", "position", "panel", "scene", "segment", "phase",
     "section", "clip", "setup",
 ];
+
+/// Such names in short, before a number and a colon: `P1:`.
+const SHORT_LABELS: [&str; 4] = ["p", "pnl", "sh", "seg"];
 
 /// `shot 1, 0:00-0:04:`, `step 2 (4 s):`, `A, 3 s:`: the word after it, and the time of the part.
 fn labelled_time_at(prompt: &str, words: &[Word], i: usize) -> Option<(usize, StampKind)> {
@@ -288,6 +276,8 @@ fn labelled_time_at(prompt: &str, words: &[Word], i: usize) -> Option<(usize, St
 fn list_number_at(prompt: &str, words: &[Word], i: usize) -> Option<(usize, u32)> {
     let is_named = LABELS.contains(&word_at(words, i));
     let after_mark = i > 0 && matches!(word_at(words, i - 1), "#" | "(");
+    let is_letter = SHORT_LABELS.contains(&word_at(words, i)) && word_at(words, i + 2) == ":";
+    let is_named = is_named || is_letter;
     let at = i + usize::from(is_named);
     let word = words.get(at)?;
     let number = match word.text.parse::<u32>() {
