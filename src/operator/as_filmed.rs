@@ -9,9 +9,8 @@ use crate::world::{Subject, World};
 
 /// The program with the move first where a step says `handheld` before it, with flights that set out from a thing at
 /// that thing, with ways in through a door that nothing lies behind as ways from the door, with flights over things to
-/// what the next step shows, with descents to a worm's view that end at the floor, with tilts to what is
-/// aside as turns, and with slides from thing to thing that
-/// look where they go.
+/// what the next step shows, with descents to a worm's view that end at the floor, with tilts to what is aside as turns,
+/// and with slides from thing to thing that look where they go.
 pub(super) fn as_filmed(world: &World, program: &Program) -> Program {
     let mut filmed = program.clone();
     for (nth, step) in filmed.steps.iter_mut().enumerate() {
