@@ -177,13 +177,7 @@ impl Director {
             Ok(part_of(words, label)?.or(described_part(words, label, whole == Some(id))?))
         };
         let mut linked = Linked { scenery, acts, ..link_parts(prompt, &mentions, &part)? };
-        for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
-            let words = |found: &&FoundMention| {
-                let [start, end] = found.mention.bytes;
-                prompt.get(start..end).is_some_and(|words| group.is_named(words))
-            };
-            group.nearest = found.iter().find(words).map(|found| found.nearest.clone()).unwrap_or_default();
-        }
+        name_nearest(prompt, &found, &mut linked);
         Ok(linked)
     }
 
@@ -269,6 +263,17 @@ impl Director {
         // What the scene lacks stays a group, so that callers can tell it.
         direction.program = direction.program.with_ids(&|ids| linked.expanded(ids));
         Ok(direction)
+    }
+}
+
+/// Gives what the scene lacks the nearest names of the scene, as its mention has them.
+fn name_nearest(prompt: &str, found: &[FoundMention], linked: &mut Linked) {
+    for group in linked.groups.iter_mut().filter(|group| group.members.is_empty()) {
+        let words = |found: &&FoundMention| {
+            let [start, end] = found.mention.bytes;
+            prompt.get(start..end).is_some_and(|words| group.is_named(words))
+        };
+        group.nearest = found.iter().find(words).map(|found| found.nearest.clone()).unwrap_or_default();
     }
 }
 

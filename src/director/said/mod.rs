@@ -133,17 +133,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     stillness::move_without_focus(linked, steps);
     stillness::travel_ways(linked, steps);
     stillness::hold_arrivals(linked, steps);
-    endings::glide_in_and_out(linked, steps);
-    endings::travel_at_distance(steps);
-    endings::near_to_size(linked, steps);
-    endings::close_onto(linked, steps);
-    contents::look_into(linked, steps);
-    endings::show_whole(linked, steps);
-    fills::show_completely(linked, steps);
-    endings::end_on_place(linked, steps);
-    endings::notice_place(linked, steps);
-    endings::widen_again(linked, steps);
-    stillness::circle_spirals(linked, steps);
+    take_said_of_ends(linked, steps);
     // What the rules above read from the words is taken back with the rest.
     taken_back::drop_taken_back(linked, direction);
     let steps = &mut direction.program.steps;
@@ -162,6 +152,21 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     take_said_of_pictures(linked, &mut direction.program.steps);
     take_said_of_moves(linked, direction);
     Ok(())
+}
+
+/// Corrects how steps end by what their words say plainly.
+fn take_said_of_ends(linked: &Linked, steps: &mut [Step]) {
+    endings::glide_in_and_out(linked, steps);
+    endings::travel_at_distance(steps);
+    endings::near_to_size(linked, steps);
+    endings::close_onto(linked, steps);
+    contents::look_into(linked, steps);
+    endings::show_whole(linked, steps);
+    fills::show_completely(linked, steps);
+    endings::end_on_place(linked, steps);
+    endings::notice_place(linked, steps);
+    endings::widen_again(linked, steps);
+    stillness::circle_spirals(linked, steps);
 }
 
 /// Corrects the pictures of steps by what the words say plainly of how they look.
