@@ -49,7 +49,7 @@ pub(crate) fn point_by_words(prompt: &str, objects: &[NamedObject], found: &mut 
                 easel.clone().filter(|_| is_only_canvas(said(prompt, &found[nth].mention)) && !hangs)
             });
         if let [id] = found[nth].mention.ids[..]
-            && label(objects, id).and_then(head).as_deref() == Some("easel")
+            && label(objects, id).is_some_and(is_easel)
         {
             easel = Some(vec![id]);
         }
@@ -114,21 +114,25 @@ fn on_easel(prompt: &str, objects: &[NamedObject], found: &[FoundMention], nth: 
     let at = own.iter().position(|word| is_listed(CANVASES, &word.text))?;
     let is_on = words[at + 1..].iter().take(3).map(|word| word.text.as_str()).collect::<Vec<_>>();
     let is_on = matches!(is_on[..], ["on", "the" | "an" | "that", "easel"]);
-    let easels = || objects.iter().filter(|object| head(&object.label).as_deref() == Some("easel"));
-    let has_easel = |ids: &[u32]| ids.iter().any(|id| easels().any(|easel| easel.id == *id));
+    let easels = || objects.iter().filter(|object| is_easel(&object.label));
+    let has_easel = |ids: &[u32]| ids.iter().any(|id| label(objects, *id).is_some_and(is_easel));
     let named = found.get(nth + 1).map(|next| next.mention.ids.clone()).filter(|ids| has_easel(ids));
     let only = || easels().next().filter(|_| easels().count() == 1).map(|easel| vec![easel.id]);
     if is_on && !has_easel(&mention.ids) { named.or_else(only) } else { None }
 }
 
+fn is_easel(label: &str) -> bool {
+    head(label).as_deref() == Some("easel")
+}
+
 /// The easels, where `the canvas` was taken for pictures on the wall: those are framed.
 fn canvases(prompt: &str, objects: &[NamedObject], found: &[FoundMention], nth: usize) -> Option<Vec<u32>> {
     let mention = &found[nth].mention;
-    let is_canvas =
-        tokenize(said(prompt, mention)).iter().any(|word| matches!(word.text.as_str(), "canvas" | "canvases"));
-    let is_easel = |id: &u32| label(objects, *id).and_then(head).as_deref() == Some("easel");
+    let words = tokenize(said(prompt, mention));
+    let is_plural = words.iter().any(|word| word.text == "canvases");
+    let is_canvas = is_plural || words.iter().any(|word| word.text == "canvas");
+    let is_easel = |id: &u32| label(objects, *id).is_some_and(is_easel);
     let easels: Vec<u32> = objects.iter().map(|object| object.id).filter(is_easel).collect();
-    let is_plural = tokenize(said(prompt, mention)).iter().any(|word| word.text == "canvases");
     // `The middle easel, hold on the canvas`.
     let named = found[..nth].iter().rev().map(|before| &before.mention.ids).find(|ids| ids.iter().any(is_easel));
     let named = named.filter(|ids| ids.len() == 1 && !is_plural).cloned();

@@ -3,7 +3,9 @@
 
 use std::collections::BTreeSet;
 
-use cinesplat_language::{LanguageError, Mention, NamedObject, Word, is_listed, own_part_at, stem, tokenize};
+use cinesplat_language::{
+    LanguageError, Mention, NamedObject, Relation, Things, Word, is_listed, own_part_at, stem, tokenize,
+};
 
 use crate::names::FoundMention;
 use crate::said::abbreviated_size;
@@ -207,14 +209,24 @@ pub(crate) fn name_by_label_words(prompt: &str, objects: &[NamedObject], found: 
 
 /// Puts a mention that the words make sure of in its place among the others.
 pub(crate) fn insert_mention(found: &mut Vec<FoundMention>, mention: Mention) {
-    let place = found.partition_point(|found| found.mention.bytes[0] < mention.bytes[0]);
-    found.insert(place, FoundMention { mention, probability: 1.0, nearest: Vec::new() });
+    insert_found(found, FoundMention { mention, probability: 1.0, nearest: Vec::new() });
 }
 
-/// Puts such a mention in the place of those that share words with it.
+/// Puts a mention where it stands in the prompt.
+pub(crate) fn insert_found(found: &mut Vec<FoundMention>, new: FoundMention) {
+    let place = found.partition_point(|found| found.mention.bytes[0] < new.mention.bytes[0]);
+    found.insert(place, new);
+}
+
+/// Puts a mention that is certain in the place of those that share words with it.
 pub(crate) fn replace_mentions(found: &mut Vec<FoundMention>, mention: Mention) {
-    found.retain(|other| !shares_bytes(other, mention.bytes));
+    drop_mentions(found, mention.bytes);
     insert_mention(found, mention);
+}
+
+/// Removes the mentions that have some of these bytes of the prompt.
+pub(crate) fn drop_mentions(found: &mut Vec<FoundMention>, bytes: [usize; 2]) {
+    found.retain(|found| !shares_bytes(found, bytes));
 }
 
 /// Whether a mention of things of the scene has some of these bytes of the prompt.
@@ -244,6 +256,12 @@ pub(crate) fn label(objects: &[NamedObject], id: u32) -> Option<&str> {
 /// The stem of the thing that a name names: its last word.
 pub(crate) fn head(name: &str) -> Option<String> {
     tokenize(name).into_iter().rev().find(Word::is_alphabetic).map(|word| stem(&word.text))
+}
+
+/// Whether a noun (a stem) may mean what has a label: a word of it, its kind, or a part of it.
+pub(crate) fn may_mean(noun: &str, label: &str) -> bool {
+    let named_by = [Relation::Same, Relation::Broader, Relation::Narrower, Relation::Part];
+    content(label).contains(noun) || Things::embedded().is_related(label, noun, &named_by)
 }
 
 /// Whether a mention is a number: `<obj-3>`, `object 3`.

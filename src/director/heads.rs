@@ -2,7 +2,7 @@
 
 use cinesplat_language::{NamedObject, Relation, Things};
 
-use crate::explained::{content, head, is_number, label, said};
+use crate::explained::{content, head, is_number, label, may_mean, said};
 use crate::names::FoundMention;
 use crate::placed::Places;
 
@@ -13,11 +13,11 @@ pub(crate) fn point_by_heads(prompt: &str, objects: &[NamedObject], places: Plac
         let words = said(prompt, &found.mention);
         let [id] = found.mention.ids[..] else { continue };
         let (Some(noun), Some(taken)) = (head(words), label(objects, id)) else { continue };
-        if is_number(words) || content(words).len() < 2 || is_meant(taken, &noun) {
+        if is_number(words) || content(words).len() < 2 || may_mean(&noun, taken) {
             continue;
         }
         let center = |id: u32| places.objects.iter().find(|object| object.id == id).map(|object| object.center);
-        let apart = |id: u32| center(id).zip(center(found.mention.ids[0])).map_or(0.0, |(a, b)| a.distance(b));
+        let apart = |other: u32| center(other).zip(center(id)).map_or(0.0, |(a, b)| a.distance(b));
         // `The pink drawer unit` are the drawers, where another thing is called a unit as well.
         let names_taken = head(taken).is_some_and(|taken| content(words).contains(&taken));
         let is_called = |object: &&NamedObject| {
@@ -29,12 +29,6 @@ pub(crate) fn point_by_heads(prompt: &str, objects: &[NamedObject], places: Plac
             found.mention.ids = vec![object.id];
         }
     }
-}
-
-/// Whether a noun may mean what has a label.
-fn is_meant(label: &str, noun: &str) -> bool {
-    let named_by = [Relation::Same, Relation::Broader, Relation::Narrower, Relation::Part];
-    content(label).contains(noun) || Things::embedded().is_related(label, noun, &named_by)
 }
 
 #[cfg(test)]

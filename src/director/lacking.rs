@@ -6,7 +6,7 @@
 use cinesplat_language::{Mention, NamedObject, Relation, Things, Word, is_listed, nearest_names, tokenize};
 
 use crate::error::DirectorError;
-use crate::explained::is_linked;
+use crate::explained::{insert_found, is_linked, may_mean};
 use crate::names::FoundMention;
 
 /// What stands in rooms and means nothing else to somebody who films.
@@ -46,7 +46,7 @@ pub(crate) fn name_lacking(
         if is_listed(UNMISTAKABLE, &words[at].text) {
             mistake_nothing(objects, &words[at], [words[first - 1].span[0], bytes[0]], found)?;
         }
-        if is_linked(found, bytes) || objects.iter().any(|object| is_called(object, &words[at])) {
+        if is_linked(found, bytes) || objects.iter().any(|object| may_mean(&words[at].stem, &object.label)) {
             continue;
         }
         let mut alike = objects.iter().filter(|object| is_alike(object, &words[at]));
@@ -54,8 +54,7 @@ pub(crate) fn name_lacking(
             (Some(object), None) => (vec![object.id], Vec::new()),
             _ => (Vec::new(), nearest_names(prompt.get(bytes[0]..bytes[1]).unwrap_or_default(), objects)?),
         };
-        let place = found.partition_point(|other| other.mention.bytes[0] < bytes[0]);
-        found.insert(place, FoundMention { mention: Mention { bytes, ids }, probability: 1.0, nearest });
+        insert_found(found, FoundMention { mention: Mention { bytes, ids }, probability: 1.0, nearest });
     }
     Ok(())
 }
@@ -69,7 +68,7 @@ fn mistake_nothing(
 ) -> Result<(), DirectorError> {
     let is_own = |found: &&mut FoundMention| starts.contains(&found.mention.bytes[0]) && !found.mention.ids.is_empty();
     let Some(found) = found.iter_mut().find(is_own) else { return Ok(()) };
-    if !objects.iter().any(|object| is_called(object, noun)) {
+    if !objects.iter().any(|object| may_mean(&noun.stem, &object.label)) {
         found.mention.ids.clear();
         found.nearest = nearest_names(&noun.text, objects)?;
     }
@@ -96,13 +95,6 @@ fn phrase_start(words: &[Word], at: usize) -> Option<usize> {
 /// Whether a word behind a noun goes on with it.
 fn is_noun(word: &Word) -> bool {
     Relation::Same.is_in(Things::embedded().roles(&word.stem))
-}
-
-/// Whether an object may be meant by a noun.
-fn is_called(object: &NamedObject, noun: &Word) -> bool {
-    let named_by = [Relation::Same, Relation::Broader, Relation::Narrower, Relation::Part];
-    Things::embedded().is_related(&object.label, &noun.stem, &named_by)
-        || tokenize(&object.label).iter().any(|word| word.stem == noun.stem)
 }
 
 /// Whether an object is a thing beside what a noun means, of one kind that is narrower than furniture: a workbench for a desk.

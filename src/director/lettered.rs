@@ -5,6 +5,7 @@ use std::collections::BTreeMap;
 
 use cinesplat_language::{Mention, NamedObject, Word, is_listed, number_word, tokenize};
 
+use crate::explained::{drop_mentions, replace_mentions};
 use crate::names::FoundMention;
 
 /// What things with letters may be called.
@@ -41,14 +42,8 @@ pub(crate) fn name_lettered(prompt: &str, objects: &[NamedObject], found: &mut V
     let ends = all_at(&words, definitions.len()).filter(|bytes| bytes[0] > behind);
     mentions.extend(ends.map(|bytes| Mention { bytes, ids: all() }));
     let defined: Vec<[usize; 2]> = definitions.iter().map(|each| each.bytes).collect();
-    let is_free = |found: &FoundMention| {
-        let [from, to] = found.mention.bytes;
-        let is_apart = |bytes: &[usize; 2]| to <= bytes[0] || from >= bytes[1];
-        defined.iter().all(is_apart) && mentions.iter().all(|mention| is_apart(&mention.bytes))
-    };
-    found.retain(is_free);
-    found.extend(mentions.into_iter().map(|mention| FoundMention { mention, probability: 1.0, nearest: Vec::new() }));
-    found.sort_by_key(|found| found.mention.bytes[0]);
+    defined.iter().for_each(|bytes| drop_mentions(found, *bytes));
+    mentions.into_iter().for_each(|mention| replace_mentions(found, mention));
     defined
 }
 

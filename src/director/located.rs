@@ -102,7 +102,7 @@ pub(crate) fn absorb_places(
             && between.len() == 1
             && between[0].text == ",";
         if is_again
-            || is_one_again(prompt, objects, thing, place, &between)
+            || is_one_again(prompt, thing, place, &between)
             || says_where && is_loose
             || locates(&between) && is_named(thing, place)
             || has_part(prompt, objects, thing, place, &between)?
@@ -138,16 +138,14 @@ const ON_FLOOR: &str = "on the floor ground in corner over there";
 const OTHERS: &str = "other another next last first second third left right middle same";
 
 /// Whether a mention only describes the thing before it once more: `the plant on the floor, the big green one`.
-fn is_one_again(prompt: &str, objects: &[NamedObject], thing: &Mention, place: &Mention, between: &[Word]) -> bool {
-    let [id] = thing.ids[..] else { return false };
+fn is_one_again(prompt: &str, thing: &Mention, place: &Mention, between: &[Word]) -> bool {
     let words = tokenize(said(prompt, place));
     let is_one = words.last().is_some_and(|word| word.text == "one")
         && !words.iter().any(|word| is_listed(OTHERS, &word.text) || word.text == "and");
-    let comma = between.iter().position(|word| word.text == ",");
-    let rest = comma.map(|at| between.iter().enumerate().filter(move |(other, _)| *other != at));
-    let is_plain = rest.is_some_and(|mut rest| rest.all(|(_, word)| is_listed(ON_FLOOR, &word.text)));
+    let (commas, places): (Vec<&Word>, Vec<&Word>) = between.iter().partition(|word| word.text == ",");
+    let is_plain = commas.len() == 1 && places.iter().all(|word| is_listed(ON_FLOOR, &word.text));
     // `The mug, the green one` where another thing is green is still the mug.
-    is_one && is_plain && !place.ids.is_empty() && label(objects, id).is_some()
+    is_one && is_plain && thing.ids.len() == 1 && !place.ids.is_empty()
 }
 
 #[cfg(test)]

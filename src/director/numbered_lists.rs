@@ -2,7 +2,7 @@
 
 use cinesplat_language::{NamedObject, Word, tokenize};
 
-use crate::explained::{label, said};
+use crate::explained::{drop_mentions, insert_found, label, said};
 use crate::names::FoundMention;
 
 /// Words from the first number of a span to the last.
@@ -17,10 +17,8 @@ pub(crate) fn name_numbered(prompt: &str, objects: &[NamedObject], found: &mut V
     let words = tokenize(prompt);
     for nth in (0..found.len()).rev() {
         let Some(listed) = found.get(nth).and_then(|first| list_at(prompt, &words, objects, first)) else { continue };
-        let bytes = listed.mention.bytes;
-        found.retain(|other| other.mention.bytes[1] <= bytes[0] || other.mention.bytes[0] >= bytes[1]);
-        let place = found.partition_point(|other| other.mention.bytes[0] < bytes[0]);
-        found.insert(place, listed);
+        drop_mentions(found, listed.mention.bytes);
+        insert_found(found, listed);
     }
 }
 

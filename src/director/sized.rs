@@ -39,13 +39,8 @@ pub(crate) fn point_by_size(prompt: &str, objects: &[NamedObject], places: Place
         let least = if contradicts(own) { 0 } else { fit(own) };
         let radius = |id: u32| places.objects.iter().find(|object| object.id == id).map_or(0.0, Object::radius);
         let sized = of_kind.filter(|object| fit(&object.label) >= least);
-        let best = if is_big {
-            sized.max_by(|a, b| radius(a.id).total_cmp(&radius(b.id)))
-        } else {
-            sized.min_by(|a, b| radius(a.id).total_cmp(&radius(b.id)))
-        };
-        if let Some(best) = best {
-            found.mention.ids = vec![best.id];
+        if let Some(best) = of_extreme_size(sized.map(|object| object.id), is_big, radius) {
+            found.mention.ids = vec![best];
         }
     }
 }
@@ -74,21 +69,22 @@ pub(crate) fn point_by_comparison(prompt: &str, places: Places<'_>, found: &mut 
         if !is_of || !(is_width || is_most || says(SMALLER)) {
             continue;
         }
-        let size = |id: &u32| {
-            let object = places.objects.iter().find(|object| object.id == *id);
+        let size = |id: u32| {
+            let object = places.objects.iter().find(|object| object.id == id);
             object.map_or(0.0, |object| if is_width { width(object, places) } else { object.radius() })
         };
-        let ids = found.mention.ids.iter().copied();
-        let best = if is_most {
-            ids.max_by(|a, b| size(a).total_cmp(&size(b)))
-        } else {
-            ids.min_by(|a, b| size(a).total_cmp(&size(b)))
-        };
+        let best = of_extreme_size(found.mention.ids.iter().copied(), is_most, size);
         if let (Some(best), Some(before)) = (best, before) {
             found.mention.ids = vec![best];
             found.mention.bytes[0] = before.span[0];
         }
     }
+}
+
+/// The object of the largest size, or of the smallest.
+fn of_extreme_size(ids: impl Iterator<Item = u32>, is_largest: bool, size: impl Fn(u32) -> f64) -> Option<u32> {
+    let by_size = |a: &u32, b: &u32| size(*a).total_cmp(&size(*b));
+    if is_largest { ids.max_by(by_size) } else { ids.min_by(by_size) }
 }
 
 /// How far an object reaches sideways, scene units.

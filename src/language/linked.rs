@@ -113,6 +113,11 @@ impl Linked {
         out
     }
 
+    /// Objects that some words name, each once.
+    pub fn named_by(&self, words: &[&str]) -> Vec<u32> {
+        self.expanded(&words.iter().filter_map(|word| self.slot_at(word)).collect::<Vec<u32>>())
+    }
+
     /// `ids` with the members of a group replaced by the group, where all of them are there; larger groups first.
     pub fn grouped(&self, ids: &[u32]) -> Vec<u32> {
         let mut out = ids.to_vec();

@@ -2,25 +2,26 @@
 
 use std::borrow::Cow;
 
+use super::blanks::blanked;
+
 /// Most bytes of such a name.
 const MOST_BYTES: usize = 24;
 
 /// A prompt with blanks in the place of the name of its shot; every other byte stays where it is.
 pub fn without_slate(prompt: &str) -> Cow<'_, str> {
-    let end = prompt.find([':', '|']).filter(|end| *end <= MOST_BYTES);
-    let Some((name, mark)) = end.and_then(|end| Some((prompt.get(..end)?, prompt.as_bytes()[end]))) else {
+    let Some((before, rest)) = prompt.split_once([':', '|']).filter(|(name, _)| name.len() <= MOST_BYTES) else {
         return Cow::Borrowed(prompt);
     };
-    let name = name.trim();
+    let name = before.trim();
     let is_word = |letter: char| letter.is_ascii_alphanumeric() || letter == '_';
     let is_identifier = name.contains('_') && name.chars().all(is_word);
     let digits = name.chars().take_while(char::is_ascii_digit).count();
-    let is_number = mark == b'|' && digits > 0 && name.len() <= digits + 1 && name.chars().all(is_word);
-    let rest = prompt.get(prompt.len().min(end.unwrap_or_default() + 1)..).unwrap_or_default();
+    let is_number =
+        prompt[before.len()..].starts_with('|') && digits > 0 && name.len() <= digits + 1 && name.chars().all(is_word);
     if !(is_identifier || is_number) || rest.trim().is_empty() {
         return Cow::Borrowed(prompt);
     }
-    Cow::Owned(format!("{:width$}{rest}", "", width = prompt.len() - rest.len()))
+    blanked(prompt, &[[0, prompt.len() - rest.len()]])
 }
 
 #[cfg(test)]

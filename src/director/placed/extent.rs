@@ -30,9 +30,18 @@ pub(super) struct Extent {
 
 impl Extent {
     fn of(object: &Object, up: DVec3) -> Self {
+        Self::of_points(object.corners(), up)
+    }
+
+    /// That of all objects together.
+    fn of_all(places: Places<'_>) -> Self {
+        Self::of_points(places.objects.iter().flat_map(Object::corners), places.up)
+    }
+
+    fn of_points(points: impl IntoIterator<Item = DVec3>, up: DVec3) -> Self {
         let (right, ahead) = up.any_orthonormal_pair();
         let mut extent = Self { low: [f64::INFINITY; 3], high: [f64::NEG_INFINITY; 3] };
-        for corner in object.corners() {
+        for corner in points {
             for (at, axis) in [right, ahead, up].into_iter().enumerate() {
                 extent.low[at] = extent.low[at].min(corner.dot(axis));
                 extent.high[at] = extent.high[at].max(corner.dot(axis));
@@ -75,12 +84,10 @@ impl Extent {
 
 /// The thing that is nearest to a corner of all that there is.
 pub(super) fn cornermost(places: Places<'_>, ids: &[u32]) -> Option<u32> {
-    let all: Vec<Extent> = places.objects.iter().map(|object| Extent::of(object, places.up)).collect();
-    let low = [0, 1].map(|axis| all.iter().map(|extent| extent.low[axis]).fold(f64::INFINITY, f64::min));
-    let high = [0, 1].map(|axis| all.iter().map(|extent| extent.high[axis]).fold(f64::NEG_INFINITY, f64::max));
+    let all = Extent::of_all(places);
     let to_corner = |id: &u32| {
         let extent = box_of(places, *id)?;
-        let to_wall = |axis: usize| (extent.middle(axis) - low[axis]).min(high[axis] - extent.middle(axis));
+        let to_wall = |axis: usize| (extent.middle(axis) - all.low[axis]).min(all.high[axis] - extent.middle(axis));
         Some((to_wall(0).powi(2) + to_wall(1).powi(2), *id))
     };
     ids.iter().filter_map(to_corner).min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| id)
@@ -88,12 +95,10 @@ pub(super) fn cornermost(places: Places<'_>, ids: &[u32]) -> Option<u32> {
 
 /// The largest thing on the floor, or the one nearest to it.
 pub(super) fn lowest(places: Places<'_>, ids: &[u32]) -> Option<u32> {
-    let all: Vec<Extent> = places.objects.iter().map(|object| Extent::of(object, places.up)).collect();
-    let low = all.iter().map(|extent| extent.low[2]).fold(f64::INFINITY, f64::min);
-    let high = all.iter().map(|extent| extent.high[2]).fold(f64::NEG_INFINITY, f64::max);
+    let all = Extent::of_all(places);
     let boxes = ids.iter().filter_map(|id| Some((*id, box_of(places, *id)?)));
     let (on_floor, above): (Vec<_>, Vec<_>) =
-        boxes.partition(|(_, own)| own.low[2] - low < ON_FLOOR_FRAC * (high - low));
+        boxes.partition(|(_, own)| own.low[2] - all.low[2] < ON_FLOOR_FRAC * (all.high[2] - all.low[2]));
     let size = |own: &Extent| (0..3).map(|axis| own.high[axis] - own.low[axis]).sum::<f64>();
     let largest = on_floor.iter().max_by(|a, b| size(&a.1).total_cmp(&size(&b.1)));
     largest.or_else(|| above.iter().min_by(|a, b| a.1.low[2].total_cmp(&b.1.low[2]))).map(|(id, _)| *id)

@@ -353,7 +353,10 @@ mod tests {
     }
 
     fn pointed(prompt: &str, mentions: &[(&str, &[u32])]) -> Vec<Vec<u32>> {
-        let objects = room();
+        pointed_among(&room(), prompt, mentions)
+    }
+
+    fn pointed_among(objects: &[Object], prompt: &str, mentions: &[(&str, &[u32])]) -> Vec<Vec<u32>> {
         let names: Vec<NamedObject> =
             objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect();
         let mut from = 0;
@@ -364,7 +367,7 @@ mod tests {
             let mention = Mention { bytes: [start, from], ids: ids.to_vec() };
             found.push(FoundMention { mention, probability: 1.0, nearest: Vec::new() });
         }
-        point_by_places(prompt, &names, Places { objects: &objects, up: DVec3::Y }, &mut found);
+        point_by_places(prompt, &names, Places { objects, up: DVec3::Y }, &mut found);
         found.into_iter().map(|found| found.mention.ids).collect()
     }
 
@@ -374,14 +377,7 @@ mod tests {
             Object::from_box(1, "small plant", DVec3::new(0.0, 1.2, 0.0), DVec3::splat(0.2)),
             Object::from_box(2, "potted plant", DVec3::new(1.0, 0.4, 0.0), DVec3::splat(0.4)),
         ];
-        let names: Vec<NamedObject> =
-            objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect();
-        let pointed = |prompt: &str| {
-            let mention = Mention { bytes: [0, 9], ids: vec![1] };
-            let mut found = vec![FoundMention { mention, probability: 1.0, nearest: Vec::new() }];
-            point_by_places(prompt, &names, Places { objects: &objects, up: DVec3::Y }, &mut found);
-            found[0].mention.ids.clone()
-        };
+        let pointed = |prompt: &str| pointed_among(&objects, prompt, &[("the plant", &[1])]).remove(0);
         assert_eq!(pointed("the plant on the floor"), [2]);
         assert_eq!(pointed("the plant on the shelf"), [1]);
     }

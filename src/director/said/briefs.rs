@@ -228,10 +228,7 @@ pub(crate) fn directs(words: &[&str]) -> bool {
 /// What a brief is about, in order of mention: the thing that it calls the hero, or else all that it names but what is `denied`.
 fn subjects(linked: &Linked, words: &[&str], denied: &[u32]) -> Vec<u32> {
     let sentences = words.split(|word| SENTENCE_ENDS.contains(word) || *word == ",");
-    let named = |words: &[&str]| -> Vec<u32> {
-        let slots: Vec<u32> = words.iter().filter_map(|word| linked.slot_at(word)).collect();
-        linked.expanded(&slots)
-    };
+    let named = |words: &[&str]| linked.named_by(words);
     let is_hero = |words: &&[&str]| words.iter().any(|word| is_listed(HEROES, word)) && !named(words).is_empty();
     let heroes = sentences.clone().find(is_hero).map(named);
     let mut all = heroes.unwrap_or_else(|| named(words));

@@ -61,8 +61,7 @@ fn leave_door(linked: &Linked, objects: &[Object], step: &mut Step) {
     };
     let before = &words[at.saturating_sub(4)..at];
     let leads = before.iter().any(|word| is_listed("from at by in inside near beside", word));
-    let looks =
-        words[..at].iter().any(|word| is_listed(LOOKS, word) || is_form(word, "look") || is_form(word, "close"));
+    let looks = says_look(&words[..at]);
     // `With the full room on show` is what there is to see from it.
     let size = step.start.size.filter(|size| *size == ShotSize::Long);
     let is_plain = step.start == Framing { subjects: door.clone(), size, ..Framing::default() };
@@ -70,6 +69,11 @@ fn leave_door(linked: &Linked, objects: &[Object], step: &mut Step) {
         let objects = std::mem::take(&mut step.start).subjects;
         step.via = Some(Via { how: Pass::From, objects });
     }
+}
+
+/// Whether words before a place make it what a picture shows.
+fn says_look(words: &[&str]) -> bool {
+    words.iter().any(|word| is_listed(LOOKS, word) || is_form(word, "look") || is_form(word, "close"))
 }
 
 /// Makes two ways of one that leads in from a door, past something and on: `in from the door, past the desk, end at the window`
@@ -111,10 +115,8 @@ fn begin_at_place(linked: &Linked, objects: &[Object], step: &mut Step) {
         return;
     };
     let place = linked.expanded(&[id]);
-    let looks =
-        words[..at].iter().any(|word| is_listed(LOOKS, word) || is_form(word, "look") || is_form(word, "close"));
     let [one] = place[..] else { return };
-    if looks || at > MAX_BEFORE_PLACE || step.via.as_ref().is_some_and(|via| via.objects != place) {
+    if says_look(&words[..at]) || at > MAX_BEFORE_PLACE || step.via.as_ref().is_some_and(|via| via.objects != place) {
         return;
     }
     let before = &words[..at];

@@ -298,7 +298,7 @@ pub(crate) fn drop_unnamed_starts(linked: &Linked, steps: &mut [Step]) {
     // `Open wide on the whole studio, glide to the easel, hold on the painting` does not begin on the painting.
     let Some(first) = steps.first_mut() else { return };
     let texts = linked.texts_in(first.words.unwrap_or_default());
-    let own = linked.expanded(&texts.iter().filter_map(|word| linked.slot_at(word)).collect::<Vec<u32>>());
+    let own = linked.named_by(&texts);
     let says_all = texts.iter().any(|word| ALL.contains(word));
     if says_all && !own.is_empty() && !first.start.subjects.iter().any(|id| own.contains(id)) {
         first.start.subjects.clear();
@@ -313,8 +313,7 @@ const ALL: [&str; 4] = ["whole", "entire", "full", "wide"];
 pub(crate) fn drop_unnamed_passes(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
         let Some((words, via)) = step.words.zip(step.via.as_mut()) else { continue };
-        let slots: Vec<u32> = linked.texts_in(words).iter().filter_map(|word| linked.slot_at(word)).collect();
-        let named = linked.expanded(&slots);
+        let named = linked.named_by(&linked.texts_in(words));
         if via.objects.iter().any(|id| named.contains(id)) {
             via.objects.retain(|id| named.contains(id));
         }

@@ -58,8 +58,7 @@ pub(crate) fn drop_taken_back(linked: &Linked, direction: &mut Direction) {
 fn taken_back_at<'a>(words: &[&'a str], at: usize) -> Option<&'a str> {
     let word = |at: usize| words.get(at).copied().unwrap_or_default();
     let (_, particle) = BACK.iter().find(|(verb, _)| *verb == word(at))?;
-    // `Never drop the pan` takes nothing back.
-    // .. and `no scrap the up` does.
+    // `Never drop the pan` takes nothing back, but `no scrap the up` does.
     let said = if at > 0 && words[at - 1] == "no" { at - 1 } else { at };
     if words[said.saturating_sub(3)..said].iter().any(|word| DENIALS.contains(word)) {
         return None;
