@@ -2,6 +2,7 @@
 
 use super::context::{NORMAL_LENS_DEG, StepContext, is_stated, require_visible};
 use super::dolly_length::{LEAST_RATIO, WALL_RADII, distance_ratio};
+use super::room_view::room_target;
 use super::standing_view::stands;
 use crate::constraint::{ConstraintKind, Scope};
 use crate::framing::{Target, in_frame_frac};
@@ -77,16 +78,26 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     segments
 }
 
-/// The first picture of a film that goes in on one thing from another picture: from a group that it belongs to, or from another
-/// thing. `None` where it goes in on what it shows first.
+/// The first picture of a film that goes in on one thing from another picture: from a group that it belongs to, from another
+/// thing, or from the room. `None` where it goes in on what it shows first.
 fn from_another(context: &StepContext, target: &Target, inward: bool) -> Option<Target> {
     let start = &context.step.start;
+    if inward && context.opens_on_room() && !target.ids.is_empty() && context.parameters[5] < MOST_FROM_ROOM {
+        return room_target(context.world, context.parameters).filter(|_| !stands(&context.standing()));
+    }
     let is_other = start.subjects != context.step.end.subjects && !context.step.end.subjects.is_empty();
     if !inward || !is_other || context.before.is_some() || stands(&context.standing()) || target.ids.is_empty() {
         return None;
     }
     Target::of(context.world, &Framing { whole: start.whole || start.subjects.len() > 1, ..start.clone() })
 }
+
+/// Value of parameter 5 up to which a film that begins with the room as a whole begins where people stand; it begins far from
+/// what it goes in on otherwise.
+const MOST_FROM_ROOM: f64 = 0.7;
+
+/// Share of what a film goes in on that the picture of the room shows.
+const SHOWN_IN_ROOM: f64 = 0.6;
 
 /// Goes in on a target from a picture of something else, and turns to it on the way.
 fn push_from(context: &StepContext, start: &Target, target: &Target, fill: (f64, f64)) -> MotionSegment {
@@ -100,6 +111,11 @@ fn push_from(context: &StepContext, start: &Target, target: &Target, fill: (f64,
         .segment(vec![first, last])
         .requiring(Scope::Start, ConstraintKind::Centered(start.clone(), 0.2))
         .requiring(Scope::End, ConstraintKind::Centered(target.clone(), 0.2));
+    let segment = if start.ids.is_empty() {
+        segment.requiring(Scope::Start, ConstraintKind::InFrame(target.ids.clone(), SHOWN_IN_ROOM))
+    } else {
+        segment
+    };
     let segment = if context.step.amount.is_some() {
         segment
     } else {
