@@ -4,8 +4,8 @@ use std::path::Path;
 
 use cinesplat_language::{
     Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, is_no_thing, link_parts, part_of,
-    scenery, tokenize, without_arrows, without_camera_settings, without_dictation, without_frame_shape, without_slate,
-    without_tolerances,
+    scenery, tokenize, without_arrows, without_camera_settings, without_dictation, without_frame_shape,
+    without_references, without_slate, without_tolerances,
 };
 use cinesplat_objects::{Object, only_whole};
 use cinesplat_operator::{Program, StepCameras};
@@ -32,6 +32,7 @@ use crate::lacking::name_lacking;
 use crate::lettered::name_lettered;
 use crate::likeness::join_likenesses;
 use crate::located::absorb_places;
+use crate::lost::add_lost_clauses;
 use crate::model::Model;
 use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
@@ -125,6 +126,7 @@ impl Director {
         check_prompt(prompt)?;
         let prompt = &*without_dictation(prompt);
         let prompt = &*without_slate(prompt);
+        let prompt = &*without_references(prompt);
         let prompt = &*without_frame_shape(prompt, objects);
         let prompt = &*without_camera_settings(prompt)?;
         let prompt = &*without_tolerances(prompt);
@@ -206,7 +208,7 @@ impl Director {
         let mut direction =
             direct_composed(timeless.as_ref().unwrap_or(linked), &|linked, subjects| match &linked.timeline {
                 Some(timeline) => direct_beats(linked, timeline, subjects, &|part| self.direct_corrected(part, scene)),
-                None => self.direct_corrected(linked, scene),
+                None => self.direct_clauses(linked, scene),
             })?;
         if let Some(times) = times {
             times.write(&mut direction);
@@ -215,6 +217,13 @@ impl Director {
         frame_parts(whole, (scene.objects, scene.up), &mut direction.program);
         pan_from_first_to_last((scene.objects, scene.up), &mut direction.program);
         direction.unmet.extend(&whole.acts);
+        Ok(direction)
+    }
+
+    /// The direction of a prompt, with that of its clauses that are left out where it is read as a whole.
+    fn direct_clauses(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
+        let mut direction = self.direct_corrected(linked, scene)?;
+        add_lost_clauses(linked, &mut direction, &|part| self.direct_corrected(part, scene))?;
         Ok(direction)
     }
 

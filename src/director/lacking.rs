@@ -3,7 +3,9 @@
 //! The network of names is careful with what is missing, because a wrong refusal is worse than a noun that it overlooks. Of
 //! these nouns nobody means anything but the thing.
 
-use cinesplat_language::{Mention, NamedObject, Relation, Things, Word, is_listed, nearest_names, tokenize};
+use cinesplat_language::{
+    Mention, NamedObject, Relation, Things, Word, is_listed, is_no_thing, nearest_names, tokenize,
+};
 
 use crate::error::DirectorError;
 use crate::explained::{insert_found, is_linked, may_mean};
@@ -46,7 +48,11 @@ pub(crate) fn name_lacking(
         if is_listed(UNMISTAKABLE, &words[at].text) {
             mistake_nothing(objects, &words[at], [words[first - 1].span[0], bytes[0]], found)?;
         }
-        if is_linked(found, bytes) || objects.iter().any(|object| may_mean(&words[at].stem, &object.label)) {
+        let is_persona = is_no_thing(prompt, &Mention { bytes, ids: Vec::new() }, objects);
+        if is_persona
+            || is_linked(found, bytes)
+            || objects.iter().any(|object| may_mean(&words[at].stem, &object.label))
+        {
             continue;
         }
         let mut alike = objects.iter().filter(|object| is_alike(object, &words[at]));
@@ -136,5 +142,6 @@ mod tests {
         assert_eq!((found.len(), found[0].mention.ids.len()), (1, 0));
         assert_eq!(named("move like the cat, from the dog's eye level, to the armchair"), []);
         assert_eq!(named("as quiet as a bed"), []);
+        assert_eq!(named("i am the cat. low along the floor"), []);
     }
 }

@@ -37,6 +37,7 @@ mod lacking;
 mod lettered;
 mod likeness;
 mod located;
+mod lost;
 mod manifest;
 mod model;
 mod model_files;

@@ -149,7 +149,7 @@ pub use quantity::{Quantity, QuantityKind};
 pub use rates::Rate;
 pub use scenery::scenery;
 pub use senses::{Senses, sense_names};
-pub use slates::without_slate;
+pub use slates::{without_references, without_slate};
 pub use thing_parts::{PartPlace, SaidPart, own_part_at, part_of, said_parts};
 pub use things::{Kind, MAX_PHRASE_WORDS, Relation, Things};
 pub use timeline::{Beat, BeatLength, Timeline};

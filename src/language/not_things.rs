@@ -59,13 +59,45 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
         || is_lounge(&words, [first, end], objects)
         || is_count(&words, [first, end])
         || is_floor(&words, [first, end], objects)
+        || is_likeness(&words, [first, end], objects)
+}
+
+/// Who somebody is before the noun: `I'm the cat`, `imagine you're our cat`.
+const PERSONAS: [[&str; 2]; 8] = [
+    ["i", "am"],
+    ["i", "'m"],
+    ["you", "are"],
+    ["you", "'re"],
+    ["we", "are"],
+    ["we", "'re"],
+    ["you", "were"],
+    ["you", "be"],
+];
+const OWNERS: &str = "the a an our my your their his her";
+
+/// What a move or a person is only compared with, where no thing of the scene is called so: `fly up like a drone`, `I am the cat`.
+fn is_likeness(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
+    let article = usize::from(is_listed(OWNERS, word_at(words, first)));
+    let noun = first + article;
+    let before = if article == 1 { first } else { first.saturating_sub(1) };
+    let owner = word_at(words, before);
+    let text = |back: usize| before.checked_sub(back).map_or("", |at| word_at(words, at));
+    let is_compared = text(1) == "like" && matches!(owner, "a" | "an") && !is_listed("look looks looking", text(2));
+    let is_persona = is_listed(OWNERS, owner) && PERSONAS.contains(&[text(2), text(1)]);
+    let is_named = |word: &Word| {
+        objects.iter().any(|object| {
+            tokenize(&object.label).iter().any(|own| own.stem == word.stem)
+                || Things::embedded().is_related(&object.label, &word.stem, &[Relation::Same])
+        })
+    };
+    noun < end && (is_compared || is_persona) && !words[noun..end].iter().any(is_named)
 }
 
 /// What floors are made of, and words of who is near them.
 const FLOORS: &str = "tile floorboard lino linoleum carpet board parquet flagstone flag plank cobble cobblestone laminate lawn turf \
     skirting pavement paving";
-const LOW: &str = "down low lying along level crouched close";
-const BESIDE_FLOOR: &str = "by on at near to with the just right against above";
+const LOW: &str = "down low lying along level crouched close height inches centimeters centimetres";
+const BESIDE_FLOOR: &str = "by on at near to with the just right against above off";
 
 /// `Start down by the tiles`: the floor, where no thing of the scene is called so.
 fn is_floor(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
@@ -255,6 +287,16 @@ mod tests {
         assert!(is_none("start down by the tiles, looking up at the skull", "the tiles"));
         assert!(is_none("glide low along the floorboards", "the floorboards"));
         assert!(!is_none("push in on the tiles", "the tiles"));
+    }
+
+    #[test]
+    fn what_somebody_is_compared_with_is_no_thing() {
+        assert!(is_none("fly up like a drone", "drone"));
+        assert!(is_none("i am the cat. low along the floor", "the cat"));
+        assert!(is_none("imagine you're our cat, looking up", "our cat"));
+        assert!(!is_none("push in like a train on the jar", "jar"));
+        assert!(!is_none("you are at the cat", "the cat"));
+        assert!(!is_none("something that looks like a kettle", "kettle"));
     }
 
     #[test]

@@ -1,4 +1,5 @@
-//! Names of shots before what happens in them: `cam_rail_02: push in`, `7A | CU | the bust`.
+//! Names of shots and of requirements before what happens in them: `cam_rail_02: push in`, `7A | CU | the bust`, `REQ-01: pan
+//! by 40 degrees. REQ-02: ..`.
 
 use std::borrow::Cow;
 
@@ -7,8 +8,29 @@ use super::blanks::blanked;
 /// Most bytes of such a name.
 const MOST_BYTES: usize = 24;
 
-/// A prompt with blanks in the place of the name of its shot; every other byte stays where it is.
+/// Fewest and most letters of the name of a requirement, and most digits behind it.
+const LETTERS: std::ops::RangeInclusive<usize> = 2..=4;
+const MOST_DIGITS: usize = 4;
+
+/// Bytes of the names of requirements, each with its colon.
+fn requirements(prompt: &str) -> Vec<[usize; 2]> {
+    let named = |colon: usize| {
+        let from = prompt[..colon].rfind(char::is_whitespace).map_or(0, |at| at + 1);
+        let (letters, digits) = prompt[from..colon].split_once('-')?;
+        let is_name = LETTERS.contains(&letters.len()) && letters.chars().all(|letter| letter.is_ascii_uppercase());
+        let is_number = (1..=MOST_DIGITS).contains(&digits.len()) && digits.chars().all(|digit| digit.is_ascii_digit());
+        (is_name && is_number).then_some([from, colon + 1])
+    };
+    prompt.match_indices(':').filter_map(|(colon, _)| named(colon)).collect()
+}
+
+/// A prompt with blanks in the place of the name of its shot, and of those of its requirements; every other byte stays where it
+/// is.
 pub fn without_slate(prompt: &str) -> Cow<'_, str> {
+    let named = requirements(prompt);
+    if !named.is_empty() {
+        return blanked(prompt, &named);
+    }
     let Some((before, rest)) = prompt.split_once([':', '|']).filter(|(name, _)| name.len() <= MOST_BYTES) else {
         return Cow::Borrowed(prompt);
     };
@@ -24,15 +46,60 @@ pub fn without_slate(prompt: &str) -> Cow<'_, str> {
     blanked(prompt, &[[0, prompt.len() - rest.len()]])
 }
 
+/// How people ask after a film that they think of.
+const REMEMBERS: [&str; 8] = [
+    "you know the",
+    "you know that",
+    "do you know the",
+    "do you remember the",
+    "remember the",
+    "remember that",
+    "ever seen the",
+    "have you seen the",
+];
+const WORKS: [&str; 8] = ["film", "movie", "scene", "shot", "advert", "series", "game", "trailer"];
+
+/// A prompt with blanks in the place of questions after films that somebody thinks of, where it goes on: `You know the tricycle in
+/// The Shining? Roll at ..`.
+pub fn without_references(prompt: &str) -> Cow<'_, str> {
+    let mut from = 0;
+    let mut asked = Vec::new();
+    for (at, mark) in prompt.match_indices(['.', '!', '?']) {
+        let sentence = &prompt[from..at];
+        let low = sentence.trim().to_lowercase();
+        let is_asked = mark == "?" && REMEMBERS.iter().any(|words| low.starts_with(words));
+        let is_title = |word: &str| word.starts_with(char::is_uppercase) && word != "I";
+        let names_work = sentence.split_whitespace().skip(1).any(is_title)
+            || low.split_whitespace().any(|word| WORKS.contains(&word));
+        if is_asked && names_work && prompt[at + 1..].contains(char::is_alphabetic) {
+            asked.push([from, at + 1]);
+        }
+        from = at + 1;
+    }
+    blanked(prompt, &asked)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn films_that_somebody_thinks_of_are_not_read() {
+        let read = |prompt| without_references(prompt).trim().to_owned();
+        assert_eq!(read("You know the tricycle in The Shining? Roll in."), "Roll in.");
+        assert_eq!(read("Remember that shot with the tram? Push in."), "Push in.");
+        assert_eq!(read("You know the lamp in the corner? Push in."), "You know the lamp in the corner? Push in.");
+    }
 
     #[test]
     fn names_of_shots_are_not_read() {
         let read = |prompt| without_slate(prompt).trim().to_owned();
         assert_eq!(read("cam_rail_02: push in on the stove"), "push in on the stove");
         assert_eq!(read("7A | CU | white bust"), "CU | white bust");
+        assert_eq!(
+            read("REQ-01: pan left. REQ-02: hold").split_whitespace().collect::<Vec<_>>().join(" "),
+            "pan left. hold"
+        );
         for kept in ["0:00 wide | 0:04 close", "start: wide", "1: wide, 2: close", "CU | bust", "7A | "] {
             assert_eq!(without_slate(kept), kept);
         }

@@ -27,7 +27,9 @@ pub(crate) fn told_flank(words: &[Word]) -> Option<Flank> {
         _ => None,
     };
     let at = (0..words.len()).find(|at| side(*at).is_some())?;
-    let next = at + 1 + usize::from(text(at + 1) == "hand");
+    // `Left hand` and `left-hand`.
+    let dash = usize::from(text(at + 1) == "-");
+    let next = at + 1 + if text(at + 1 + dash) == "hand" { 1 + dash } else { 0 };
     let is_adjective = next < words.len()
         && !is_listed(SIDES, text(next))
         && words[next].is_alphabetic()

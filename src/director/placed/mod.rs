@@ -7,7 +7,7 @@ mod extent;
 mod flanks;
 mod relations;
 
-use cinesplat_language::{Mention, NamedObject, Word, is_listed, number_word, tokenize};
+use cinesplat_language::{Mention, NamedObject, Relation as Kinship, Things, Word, is_listed, number_word, tokenize};
 
 pub use extent::Places;
 use extent::{Relation, boxes, cornermost, fit, lowest};
@@ -75,7 +75,13 @@ pub(crate) fn point_by_places(
                     narrowed.clone().filter(|(all, _)| *all == alike && is_one(words)).map(|(_, one)| vec![one])
                 }),
         };
-        let Some(ids) = chosen else { continue };
+        let Some(ids) = chosen else {
+            // Of several of a kind the words mean one, wherever things are.
+            if places.objects.is_empty() && alike.len() > 1 {
+                absorb_place(prompt, objects, found, nth);
+            }
+            continue;
+        };
         if let [one] = ids[..] {
             narrowed = Some((alike, one));
         }
@@ -195,6 +201,12 @@ fn placed(
         .filter_map(|id| fit(places, *id, relation, &others).map(|(misfit, width)| (misfit, *id, width)))
         .collect();
     fits.sort_by(|a, b| a.0.total_cmp(&b.0));
+    // `The left candle on the sideboard` is one of those that stand there.
+    let there = || -> Vec<u32> { fits.iter().filter(|fit| fit.0 < TOUCHING).map(|fit| fit.1).collect() };
+    let flanked = told_flank(&words).filter(|_| !is_plural).and_then(|flank| outermost(places, &there(), flank));
+    if let Some(id) = flanked {
+        return Some(vec![id]);
+    }
     let mut ids: Vec<u32> = match (is_plural, count) {
         (_, Some(count)) => fits.iter().take(count).map(|fit| fit.1).collect(),
         // Of several pictures over a sofa the large one.
@@ -224,6 +236,8 @@ fn placed_inside(
 ) -> Option<(Vec<u32>, Vec<u32>, Vec<u32>)> {
     let words = tokenize(words);
     let (front, relation, behind) = inner_place(&words)?;
+    // `The top of the guitar` is a part of what is named.
+    let is_owned = words.get(front.len()).is_some_and(|word| word.text == "of");
     let named = |words: &[Word]| -> Vec<u32> {
         let Some(kind) = words.iter().rev().find(|word| word.is_alphabetic()) else { return Vec::new() };
         // `The lamp on the right one` of what was named last.
@@ -237,6 +251,12 @@ fn placed_inside(
         if all.is_empty() && is_listed(hung::PICTURES, &kind.text) {
             all = of_kind(&|head| is_listed(hung::LABELS, head));
         }
+        // `The flowers on the table` are those of the vase there.
+        if all.is_empty() && !is_owned {
+            let is_part =
+                |label: &str| Things::embedded().is_related(label, &kind.stem, &[Kinship::Same, Kinship::Part]);
+            all = objects.iter().filter(|object| is_part(&object.label)).collect();
+        }
         // Of several those with all of the words, as `the blue door`.
         let told = |object: &&&NamedObject| {
             let names = content(&object.label);
@@ -249,7 +269,8 @@ fn placed_inside(
     let alike = if last.text == "one" { before.to_vec() } else { named(front) };
     // `The painting over the sofa` of things called pictures, `the canvas by the window` of easels.
     let of_ids = kind_of_all(objects, &mention.ids);
-    let is_other = !of_ids.is_empty() && !of_ids.iter().any(|id| alike.contains(id));
+    let is_place = mention.ids.iter().all(|id| named(behind).contains(id));
+    let is_other = !is_place && !of_ids.is_empty() && !of_ids.iter().any(|id| alike.contains(id));
     let alike = if alike.is_empty() || is_other { of_ids } else { alike };
     let is_one = !is_plural(last);
     let mut around = named(behind);
@@ -264,12 +285,19 @@ fn placed_inside(
     if alike.is_empty() || around.is_empty() || !mention.ids.iter().all(is_named) {
         return None;
     }
+    // Where nobody knows where things are, the words mean one of the kind.
+    if places.objects.is_empty() {
+        let ids = if is_one { vec![alike[0]] } else { alike.clone() };
+        return Some((alike, ids, kind_around));
+    }
     let others = boxes(places, &around);
     let fits: Vec<(f64, u32)> =
         alike.iter().filter_map(|id| Some((fit(places, *id, relation, &others)?.0, *id))).collect();
+    let there = || -> Vec<u32> { fits.iter().filter(|fit| fit.0 < TOUCHING).map(|fit| fit.1).collect() };
+    let flanked = || told_flank(front).and_then(|flank| outermost(places, &there(), flank));
     let nearest = || fits.iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| *id);
     let ids = if is_one {
-        vec![nearest().or_else(|| matches!(alike[..], [_]).then(|| alike[0]))?]
+        vec![flanked().or_else(nearest).or_else(|| matches!(alike[..], [_]).then(|| alike[0]))?]
     } else {
         // `The plates on the table` are all that stand there.
         fits.iter().filter(|(misfit, _)| relation != Relation::Near && *misfit < TOUCHING).map(|(_, id)| *id).collect()

@@ -30,6 +30,10 @@ pub(super) fn inner_place(words: &[Word]) -> Option<(&[Word], Relation, &[Word])
 /// The relation that words between two things say; `None` where they say something else besides.
 pub(super) fn relation_of(words: &[Word]) -> Option<Relation> {
     let text = |word: &Word| word.text.clone();
+    // `The left-hand candle of the sideboard`.
+    if words.first().is_some_and(|word| word.text == "of") && words[1..].iter().all(|word| word.text == "the") {
+        return Some(Relation::On);
+    }
     let mut relation = None;
     for word in words.iter().map(text) {
         let own = match () {

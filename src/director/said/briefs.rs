@@ -34,7 +34,7 @@ const NO_WAYS: &str = "turns turned \
     get got getting wake woke waking give gave pick picked picking set sit sits sitting lie lying grow \
     stand stands hang make made dress dressed tidy tidied grown let calm slow settle";
 /// Words with which another word is one of cameras: `look at`, `open on`, `come closer`.
-const LEADS: [(&str, &str); 10] = [
+const LEADS: [(&str, &str); 14] = [
     ("head", "for over to towards toward into off out"),
     ("dutch", "angle angles tilt"),
     ("look", "at into out over back"),
@@ -45,6 +45,10 @@ const LEADS: [(&str, &str); 10] = [
     ("end", "on with at"),
     ("still", "of on from"),
     ("close", "on to in up"),
+    ("draw", "back in away closer near nearer up"),
+    ("ease", "in into back out off over up down"),
+    ("back", "off away out up"),
+    ("widen", "from out to until"),
 ];
 /// Fewest words of a brief: `show me the sofa` is a picture of the sofa.
 const FEWEST_WORDS: usize = 8;

@@ -15,6 +15,9 @@ const TRAVELS: [&str; 16] = [
 ];
 const BACK: [&str; 6] = ["back", "backward", "backwards", "away", "out", "rearward"];
 const FORWARD: [&str; 9] = ["in", "into", "forward", "forwards", "toward", "towards", "closer", "nearer", "inward"];
+/// Verbs that say the way by themselves: `with the camera retreating`.
+const RETREATS: [&str; 4] = ["retreat", "withdraw", "recede", "reverse"];
+const ADVANCES: [&str; 2] = ["advance", "approach"];
 /// What goes the other way in a dolly zoom.
 const OTHERS: [&str; 14] = [
     "background",
@@ -41,7 +44,8 @@ pub(crate) fn take_said_dolly_zooms(linked: &Linked, steps: &mut [Step]) {
     for nth in 0..steps.len() {
         let Some(span) = own_words(steps, nth) else { continue };
         let words = linked.texts_in(span);
-        let said = match (says_travel(&words, &BACK), says_travel(&words, &FORWARD)) {
+        let goes = |ways: &[&str], verbs: &[&str]| says_travel(&words, ways) || says_alone(&words, verbs);
+        let said = match (goes(&BACK, &RETREATS), goes(&FORWARD, &ADVANCES)) {
             (true, false) => Move::DollyZoomOut,
             (false, true) => Move::DollyZoomIn,
             _ => continue,
@@ -77,6 +81,12 @@ pub(crate) fn keep_said_lens(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Whether the camera does what one of the verbs says by itself.
+fn says_alone(words: &[&str], verbs: &[&str]) -> bool {
+    let is_others = |at: usize| words[at.saturating_sub(NUM_BEFORE)..at].iter().any(|word| OTHERS.contains(word));
+    (0..words.len()).any(|at| verbs.iter().any(|verb| is_form(words[at], verb)) && !is_others(at))
+}
+
 /// Whether a verb of the camera is followed by one of the ways: `tracks slowly backwards`, `pulling away`, but not `the
 /// background pulls away`.
 fn says_travel(words: &[&str], ways: &[&str]) -> bool {
@@ -104,5 +114,8 @@ mod tests {
         assert!(!says("rushing forward while the background pulls back", &BACK));
         assert!(says("rushing forward while the background pulls back", &FORWARD));
         assert!(!says("backing off while the lens goes in", &FORWARD));
+        let alone = |text: &str| says_alone(&text.split(' ').collect::<Vec<_>>(), &RETREATS);
+        assert!(alone("the vertigo effect with the camera retreating"));
+        assert!(!alone("the vertigo effect with the background receding"));
     }
 }

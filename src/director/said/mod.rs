@@ -52,6 +52,7 @@ mod stillness;
 mod sweeps;
 mod taken_back;
 mod together;
+mod told_ends;
 mod travels;
 mod unsaid_parts;
 mod until;
@@ -245,6 +246,7 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
 /// Corrects a direction by what the words say plainly of several of its parts.
 pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &mut Direction) {
     moods::drop_stories(linked, direction);
+    told_ends::move_told_ends(linked, direction);
     openings::drop_unnamed_starts(linked, &mut direction.program.steps);
     openings::drop_unnamed_passes(linked, &mut direction.program.steps);
     places::leave_from(linked, direction);
@@ -252,6 +254,7 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     specified::skim_tops(linked, objects, &mut direction.program.steps);
     repeats::drop_restated(direction);
     encores::repeat_all(linked, direction);
+    open::go_other_way(linked, &mut direction.program.steps);
     lengths::take_total(linked, direction);
     asides::time_title(linked, &mut direction.program);
     arrivals::end_at_stops(linked, &mut direction.program.steps);

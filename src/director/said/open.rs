@@ -121,6 +121,26 @@ pub(crate) fn reverse_retraced(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Turns a circle, a slide or a pan around whose words go the other way than the last one did: `it keeps circling the chair, then it
+/// stalls, then it goes round the other way`.
+pub(crate) fn go_other_way(linked: &Linked, steps: &mut [Step]) {
+    for nth in 1..steps.len() {
+        let words = linked.texts_in(steps[nth].words.unwrap_or_default());
+        let says = words
+            .windows(2)
+            .any(|pair| matches!(pair[0], "other" | "opposite") && matches!(pair[1], "way" | "direction" | "sense"));
+        let family = as_orbit(steps[nth].movement);
+        let is_family =
+            |step: &Step| as_orbit(step.movement) == family || as_orbit(step.movement).opposite() == Some(family);
+        let Some(there) = steps[..nth].iter().rposition(is_family) else { continue };
+        let Some(back) = steps[there].movement.opposite() else { continue };
+        if says && is_sideways(steps[nth].movement) && !steps[nth].returns {
+            steps[there].either_way = false;
+            (steps[nth].movement, steps[nth].either_way) = (back, false);
+        }
+    }
+}
+
 /// Makes a part of a circle of a factor: `go round the teapot like half way`.
 pub(crate) fn turn_by_parts(linked: &Linked, steps: &mut [Step]) {
     for step in steps {

@@ -138,8 +138,7 @@ pub(crate) fn drop_restated(direction: &mut Direction) {
             && first.duration_secs == second.duration_secs
             && first.with == second.with;
         // What the picture of a dolly zoom looks like is said of the same one.
-        let is_told_again =
-            vertigo && first.either_way && second.either_way && first.end.subjects == second.end.subjects;
+        let is_told_again = vertigo && first.either_way && first.end.subjects == second.end.subjects;
         // `.. from the skull to the lamp; rotate to the right` only says which way.
         let is_family = same || first.movement.opposite() == Some(second.movement);
         let is_turn = matches!(
@@ -148,7 +147,7 @@ pub(crate) fn drop_restated(direction: &mut Direction) {
         );
         let says_way =
             is_turn && is_family && first.either_way && !second.either_way && bare(second) && !second.returns;
-        if says_way && !first.end.subjects.is_empty() {
+        if says_way && !(first.start.subjects.is_empty() && first.end.subjects.is_empty()) {
             let one = Step {
                 movement: second.movement,
                 either_way: false,
@@ -156,8 +155,9 @@ pub(crate) fn drop_restated(direction: &mut Direction) {
                 ..first.clone()
             };
             direction.join_steps(nth, one);
-        } else if same && is_told_again {
-            let one = Step { words: first.joint_words(second), ..first.clone() };
+        } else if is_family && is_told_again && !second.cut && !second.returns {
+            let (movement, either_way) = (second.movement, second.either_way);
+            let one = Step { movement, either_way, words: first.joint_words(second), ..first.clone() };
             direction.join_steps(nth, one);
         } else if same && holds {
             let end = framing_of(&second.end, &first.end);

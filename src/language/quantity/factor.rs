@@ -209,7 +209,11 @@ fn times_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
         "half" if word_at(words, i + 1) == "of" => return Some((2, 0.5)),
         "half" => return Some((1, 0.5)),
         "twice" | "double" | "dbl" => return Some((1, 2.0)),
-        "triple" => return Some((1, 3.0)),
+        "twofold" => return Some((1, 2.0)),
+        "triple" | "threefold" | "thrice" => return Some((1, 3.0)),
+        "quadruple" | "fourfold" => return Some((1, 4.0)),
+        "fivefold" => return Some((1, 5.0)),
+        "tenfold" => return Some((1, 10.0)),
         "x" if is_joined(words, i + 1) => return cardinal_at(words, i + 1).map(|(len, value)| (len + 1, value)),
         _ => {}
     }

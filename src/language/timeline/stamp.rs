@@ -237,8 +237,8 @@ const LABELS: [&str; 15] = [
     "section", "clip", "setup",
 ];
 
-/// Such names in short, before a number and a colon: `P1:`.
-const SHORT_LABELS: [&str; 4] = ["p", "pnl", "sh", "seg"];
+/// Such names in short, and those of drawings, before a number and a colon: `P1:`, `box 2:`.
+const SHORT_LABELS: [&str; 9] = ["p", "pnl", "sh", "seg", "box", "sketch", "drawing", "thumbnail", "pic"];
 
 /// `shot 1, 0:00-0:04:`, `step 2 (4 s):`, `A, 3 s:`: the word after it, and the time of the part.
 fn labelled_time_at(prompt: &str, words: &[Word], i: usize) -> Option<(usize, StampKind)> {
