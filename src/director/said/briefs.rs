@@ -130,6 +130,53 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
     direction.replace_steps(steps);
 }
 
+/// Words of a mood, besides those of a calm film.
+const MOODS: &str = "romantic romance moody nostalgic nostalgia melancholy melancholic mysterious mystery eerie spooky tense tension \
+    uneasy joyful joy happy festive lonely loneliness sad hopeful epic majestic dramatic cinematic atmospheric atmosphere vibe vibes \
+    mood feeling magical whimsical playful luxurious nightmare haunting suspense wistful bittersweet";
+/// Fewest words of a wish for a mood.
+const FEWEST_OF_MOOD: usize = 3;
+
+/// Looks around a place of which the words only say the mood: `something romantic about dinner for two`.
+pub(crate) fn film_moods(linked: &Linked, direction: &mut Direction) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let is_mood = words.iter().any(|word| is_listed(MOODS, word) || is_listed(CALM, word));
+    let names = words.iter().any(|word| linked.slot_at(word).is_some());
+    let spans = linked.spans.first().zip(linked.spans.last());
+    let Some((first, last)) = spans.filter(|_| is_mood && !names && words.len() >= FEWEST_OF_MOOD) else { return };
+    if direction.program.steps.is_empty() && linked.timeline.is_none() && direction.unmet.is_empty() {
+        let speed = if pace(&words) == Speed::Fast { Speed::Normal } else { Speed::Slow };
+        direction.replace_steps(vec![Step { speed, words: Some([first[0], last[1]]), ..Step::look_around() }]);
+    }
+}
+
+/// Words of a picture that does not move, and fewest things that are shown all round.
+const PICTURES: &str =
+    "still static photo photograph picture image portrait frame hold locked tripod fixed poster thumbnail shot";
+const FEWEST_SHOWN: usize = 3;
+
+/// Goes around many things that one picture shows: `show me what's on the table`.
+pub(crate) fn show_many(linked: &Linked, direction: &mut Direction) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let shows = words.iter().any(|word| is_listed("show shows see", word));
+    let [step] = &mut direction.program.steps[..] else { return };
+    let is_open = step.movement == Move::Static
+        && step.with.is_empty()
+        && step.via.is_none()
+        && step.start == Framing::default()
+        && step.duration_secs.is_none()
+        && step.end.size.is_none()
+        && step.end.subjects.len() >= FEWEST_SHOWN;
+    if shows && is_open && !words.iter().any(|word| is_listed(PICTURES, word)) && !directs(&without_shows(&words)) {
+        (step.movement, step.either_way, step.end.whole) = (Move::ArcRight, true, true);
+    }
+}
+
+/// The words without those that only ask to see something.
+fn without_shows<'a>(words: &[&'a str]) -> Vec<&'a str> {
+    words.iter().filter(|word| !is_listed("show shows see all", word)).copied().collect()
+}
+
 /// Whether all steps rest.
 fn rests(direction: &Direction, words: &[&str]) -> bool {
     let is_rest = |step: &Step| {

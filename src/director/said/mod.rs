@@ -261,6 +261,8 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     if !narrated::film_narrated(linked, direction) && !wishes::film_wishes(linked, objects, direction) {
         briefs::film_briefs(linked, objects, direction);
     }
+    briefs::film_moods(linked, direction);
+    briefs::show_many(linked, direction);
     headlines::drop_headline(linked, direction);
     headlines::cut_as_headlined(linked, &mut direction.program);
     carriers::flow_without_cuts(&mut direction.program);

@@ -95,9 +95,11 @@ fn run<'a>(
                 found.end += 1;
             }
             Piece::Object(name) => {
-                word.filter(|word| word.starts_with(OBJECT))?;
+                // A mention may be without its article.
+                let at = at + usize::from(word.is_some_and(is_article));
+                subject.words.get(at).filter(|word| word.starts_with(OBJECT))?;
                 found.captures.push((name, [at, at + 1]));
-                found.end += 1;
+                found.end = at + 1;
             }
             Piece::Quantity(kind, name) => {
                 let known =
@@ -147,10 +149,14 @@ fn may_begin(alternative: &[Piece], word: Option<&str>) -> bool {
     match alternative.first() {
         Some(Piece::Word(text)) => word == Some(text),
         Some(Piece::Verb(forms)) => word.is_some_and(|word| forms.iter().any(|form| form == word)),
-        Some(Piece::Object(_)) => word.is_some_and(|word| word.starts_with(OBJECT)),
+        Some(Piece::Object(_)) => word.is_some_and(|word| word.starts_with(OBJECT) || is_article(word)),
         Some(Piece::Quantity(..)) => word.is_some_and(|word| word.starts_with(QUANTITY)),
         Some(Piece::OneOf(_) | Piece::Gap(_) | Piece::Start | Piece::End) | None => true,
     }
+}
+
+fn is_article(word: &str) -> bool {
+    matches!(word, "the" | "a" | "an" | "my" | "your" | "our")
 }
 
 fn is_joint(word: &str) -> bool {

@@ -198,6 +198,7 @@ fn is_bare_multiple(words: &[Word], i: usize, len: usize) -> bool {
     let last = word_at(words, i + len - 1);
     last == "x"
         || word_at(words, i) == "x"
+        || last.ends_with("fold") && (zooms_before(words, i) || ends_phrase(words, i + len))
         || last == "times"
             && zooms_before(words, i)
             && (ends_phrase(words, i + len) || word_before(words, i, 1).starts_with("zoom"))
@@ -224,7 +225,11 @@ fn times_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
 /// Whether one of the 14 words before word `i` is about a zoom.
 fn zooms_before(words: &[Word], i: usize) -> bool {
     let mut back = words.iter().take(i).rev().take(14);
-    back.any(|word| word.text.starts_with("zoom") || word.text == "lens" || word.text.starts_with("punch"))
+    back.any(|word| word.text.starts_with("zoom") || word.text == "lens" || is_zoom(&word.text))
+}
+
+fn is_zoom(word: &str) -> bool {
+    ["punch", "magnif", "enlarg"].iter().any(|verb| word.starts_with(verb))
 }
 
 /// Whether the clause before word `i` circles something, so that `halfway` is an angle.
@@ -261,6 +266,7 @@ mod tests {
         assert_eq!(factor("half closer"), "0.50");
         assert_eq!(factor("zoom in by a third on the vase"), "1.33");
         assert_eq!(factor("twice as close"), "0.50");
+        assert_eq!(factor("magnify the vase threefold"), "3.00");
     }
 
     #[test]
