@@ -119,6 +119,7 @@ impl<'a> Critic<'a> {
             object: subject.id,
             area_frac: wanted / whole.transmittance.len().max(1) as f64,
             seen_frac: if wanted > 0.0 { (seen / wanted).min(1.0) } else { 0.0 },
+            crowded_frac: crowded_frac(camera, subject, (weights, view), BEFORE_FRAC * self.scene_size),
             splat_px: view.splat_px(pixels),
             facing: subject.facing(camera.pose.position),
             height_frac: height_frac(camera, &subject.corners),
@@ -156,4 +157,37 @@ impl<'a> Critic<'a> {
         };
         self.subjects.subjects.iter().filter(ahead).map(distance).fold(f64::INFINITY, f64::min)
     }
+}
+
+/// Margins about a subject that should be free, over its width to the sides and over its height above it; and the part of
+/// its height above its foot where what it stands on may be nearer than the subject.
+const BESIDE: f64 = 0.12;
+const ABOVE: f64 = 0.1;
+const FOOT: f64 = 0.2;
+/// Distance before the nearest corner of a subject from which matter stands before it, over the scene size: more than the
+/// height of what stands on a table.
+const BEFORE_FRAC: f64 = 0.035;
+
+/// Share of the box about a subject, and of a margin, that matter before the subject takes in the picture; 0 where a corner is
+/// behind the camera. `gap` is the distance from which matter stands before it, scene units.
+fn crowded_frac(camera: &Camera, subject: &Subject, (weights, view): (&[f32], &View<'_>), gap: f64) -> f64 {
+    let (mut low, mut high, mut near) = (DVec2::INFINITY, DVec2::NEG_INFINITY, f64::INFINITY);
+    for &corner in &subject.corners {
+        let Some((at, depth)) = camera.project(corner) else { return 0.0 };
+        (low, high, near) = (low.min(at), high.max(at), near.min(depth));
+    }
+    let size = high - low;
+    let low = low - size * DVec2::new(BESIDE, ABOVE);
+    let high = high + size * DVec2::new(BESIDE, -FOOT);
+    let width = camera.intrinsics.width as usize;
+    let before = (near - gap) as f32;
+    let (mut inside, mut taken) = (0.0_f64, 0.0);
+    for (pixel, &weight) in weights.iter().enumerate() {
+        let at = DVec2::new((pixel % width) as f64 + 0.5, (pixel / width) as f64 + 0.5);
+        if at.cmpge(low).all() && at.cmple(high).all() {
+            inside += 1.0;
+            taken += f64::from(u8::from(weight <= SHOWN && view.shown.depth[pixel] < before));
+        }
+    }
+    taken / inside.max(1.0)
 }

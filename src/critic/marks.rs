@@ -44,8 +44,8 @@ pub(super) fn value(term: Term, film: &Film, pictures: &[Picture]) -> Option<f64
         Term::Presence => due(&|sight| Some((sight.area_frac / LARGE).min(1.0).sqrt())),
         Term::Exposure => mean(&over(&exposure)),
         Term::Depth => mean(&over(&|picture| (picture.depth_ratio.ln() / DEEP.ln()).min(1.0))),
-        Term::Balance => mean(&over(&|picture| 1.0 - (picture.balance.x.abs() / LOPSIDED).min(1.0))),
-        Term::Interest => mean(&over(&|picture| (picture.interest_frac / RICH).min(1.0))),
+        Term::Balance => lasting(&over(&|picture| 1.0 - (picture.balance.x.abs() / LOPSIDED).min(1.0))),
+        Term::Interest => lasting(&over(&|picture| (picture.interest_frac / RICH).min(1.0))),
         Term::Margin => Some(1.0 - film.cost / WORST_COST),
     };
     value.map(|value| value.clamp(0.0, 1.0))
@@ -53,7 +53,10 @@ pub(super) fn value(term: Term, film: &Film, pictures: &[Picture]) -> Option<f64
 
 /// The mean over the pictures, halfway to the worst of them: one moment behind a vase is what people remember.
 fn visible(film: &Film, pictures: &[Picture]) -> Option<f64> {
-    let seen = |(_, sight): (&Picture, &Sight)| (sight.seen_frac / FULLY_SEEN).min(1.0);
+    let seen = |(picture, sight): (&Picture, &Sight)| {
+        let crowded = if film.wants_foreground(picture.time_secs) { 0.0 } else { sight.crowded_frac };
+        (sight.seen_frac / FULLY_SEEN).min(1.0) * (1.0 - crowded)
+    };
     let shares: Vec<f64> = due_sights(film, pictures).map(seen).collect();
     let least = shares.iter().copied().fold(1.0, f64::min);
     mean(&shares).map(|mean| f64::midpoint(mean, least))
@@ -86,7 +89,9 @@ fn sharpness(film: &Film, pictures: &[Picture]) -> Option<f64> {
     let holds_px = MAX_SPLAT_FRAC * f64::from(film.size_px[1]);
     let mark = |px: f64| (1.0 - (px / holds_px / CRISP).ln() / (SOUP / CRISP).ln()).clamp(0.0, 1.0);
     let subjects: Vec<f64> = due_sights(film, pictures).filter_map(|(_, sight)| sight.splat_px.map(mark)).collect();
-    mean(&subjects).or_else(|| mean(&pictures.iter().map(|picture| mark(picture.splat_px)).collect::<Vec<_>>()))
+    // Without a subject all of the picture is looked at, and where a part of it is soup it is that part.
+    let whole = |picture: &Picture| mark(picture.splat_px).midpoint(mark(picture.coarse_px));
+    mean(&subjects).or_else(|| lasting(&pictures.iter().map(whole).collect::<Vec<_>>()))
 }
 
 /// 1 for a picture of middling brightness without clipped parts.
@@ -94,6 +99,15 @@ fn exposure(picture: &Picture) -> f64 {
     let dark = (0.15 - picture.brightness).max(0.0) / 0.15;
     let bright = (picture.brightness - 0.8).max(0.0) / 0.2;
     (1.0 - picture.clipped_frac / 0.3 - dark - bright).clamp(0.0, 1.0)
+}
+
+/// Weight of the last picture, where people stay, over that of all of them.
+const OF_LAST: f64 = 0.3;
+
+/// The mean over the pictures, with more weight on the last one.
+fn lasting(values: &[f64]) -> Option<f64> {
+    let last = *values.last()?;
+    mean(values).map(|mean| mean + OF_LAST * (last - mean))
 }
 
 fn mean(values: &[f64]) -> Option<f64> {

@@ -45,6 +45,8 @@ pub struct Picture {
     pub interest_frac: f64,
     /// Median size of the splats in pixels of the film; 0 in a void.
     pub splat_px: f64,
+    /// The size that the coarsest seventh of the picture exceeds, pixels of the film; 0 in a void.
+    pub coarse_px: f64,
     /// Every subject.
     pub sights: Vec<Sight>,
 }
@@ -58,6 +60,8 @@ pub struct Sight {
     pub area_frac: f64,
     /// Share of that area on which it is visible.
     pub seen_frac: f64,
+    /// Share of the box about it in the picture, and of a margin to the sides and above, that nearer matter takes.
+    pub crowded_frac: f64,
     /// Median size of its splats in pixels of the film, where it is visible.
     pub splat_px: Option<f64>,
     /// Mean cosine between its surfaces' normals and the direction to the camera.
@@ -65,6 +69,9 @@ pub struct Sight {
     /// Height of its projected box over the frame's; `None` where a corner is behind the camera.
     pub height_frac: Option<f64>,
 }
+
+/// Share of a picture that is no coarser than its coarse size.
+const COARSE_SHARE: f64 = 6.0 / 7.0;
 
 /// A rendered picture with what is known of its film.
 pub(super) struct View<'a> {
@@ -81,10 +88,15 @@ pub(super) struct View<'a> {
 impl View<'_> {
     /// Median size of the splats in some pixels, pixels of the film; `None` without such pixels.
     pub(super) fn splat_px(&self, pixels: impl Iterator<Item = usize>) -> Option<f64> {
+        self.size_px(pixels, 0.5)
+    }
+
+    /// Size of the splats that a share of some pixels does not exceed, pixels of the film; `None` without such pixels.
+    fn size_px(&self, pixels: impl Iterator<Item = usize>, share: f64) -> Option<f64> {
         let size = |pixel: usize| f64::from(self.shown.size[pixel] / self.shown.depth[pixel]) * self.focal_px;
         let mut sizes: Vec<f64> = pixels.map(size).filter(|size| size.is_finite()).collect();
         sizes.sort_by(f64::total_cmp);
-        sizes.get(sizes.len() / 2).copied()
+        sizes.get(((sizes.len() as f64 * share) as usize).min(sizes.len().saturating_sub(1))).copied()
     }
 }
 
@@ -123,7 +135,8 @@ pub(super) fn measured(time_secs: f64, view: &View<'_>, sights: Vec<Sight>) -> P
         depth_ratio: percentile(DEPTH_RANGE.1).zip(percentile(DEPTH_RANGE.0)).map_or(1.0, |(far, near)| far / near),
         balance,
         interest_frac,
-        splat_px: view.splat_px(solid.into_iter()).unwrap_or(0.0),
+        splat_px: view.splat_px(solid.iter().copied()).unwrap_or(0.0),
+        coarse_px: view.size_px(solid.into_iter(), COARSE_SHARE).unwrap_or(0.0),
         sights,
     }
 }

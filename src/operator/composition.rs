@@ -154,6 +154,9 @@ pub(super) fn natural_elevation_deg(world: &World, target: &Target) -> (f64, f64
         let height = surface - world.floor_height();
         BEARING_HEIGHTS.contains(&(height / eye))
     });
+    if target.ids.len() >= MANY && world.is_indoor() && bottom < 0.8 * eye {
+        return MANY_ELEVATION_DEG;
+    }
     match (is_flat, world.is_indoor()) {
         (true, _) => (28.0, 42.0),
         (false, true) if bears => (12.0, 26.0),
@@ -167,6 +170,9 @@ pub(super) fn natural_elevation_deg(world: &World, target: &Target) -> (f64, f64
     }
 }
 
+/// Things from which on a target is a group, and the elevation from which each of a group is told from the others, degrees.
+const MANY: usize = 3;
+const MANY_ELEVATION_DEG: (f64, f64) = (18.0, 38.0);
 /// Height of a surface with things on it, over that of a standing person's eyes, at which it is looked down on: a table or
 /// a desk, and no bed.
 const BEARING_HEIGHTS: std::ops::Range<f64> = 0.38..0.7;

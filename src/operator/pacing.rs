@@ -67,11 +67,17 @@ pub(super) fn natural_secs(world: &World, step: &Step, segment: &MotionSegment) 
         let secs = (JOIN_SECS * root).clamp(JOIN_RANGE_SECS.0, JOIN_RANGE_SECS.1);
         return secs + ramp_secs(secs);
     }
-    let secs = secs_per_root_width(segment.movement) * root;
+    let secs = secs_per_root_width(if goes_ahead(step, segment) { Move::PushIn } else { segment.movement }) * root;
     if segment.movement == Move::WhipPan {
         return secs.clamp(WHIP_RANGE_SECS.0, WHIP_RANGE_SECS.1);
     }
     secs.clamp(MOVE_RANGE_SECS.0, MOVE_RANGE_SECS.1) * factor(step.speed)
+}
+
+/// Whether a flight leads straight on and names nothing: the middle of its picture moves as little as that of a push.
+fn goes_ahead(step: &Step, segment: &MotionSegment) -> bool {
+    let names = !step.start.subjects.is_empty() || !step.end.subjects.is_empty() || step.via.is_some();
+    matches!(segment.movement, Move::FlyThrough | Move::Follow) && !names && segment.states.len() == 2
 }
 
 /// Factor on a step's duration.

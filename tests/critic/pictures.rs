@@ -55,6 +55,8 @@ fn a_post_hides_half_of_a_subject() {
     let sight = picture.sights[0];
     assert_eq!(sight.object, 7);
     near(sight.seen_frac, 0.5, 0.05);
+    // The margins to the sides are as wide, and half of all of it lies behind the post.
+    near(sight.crowded_frac, 0.5, 0.1);
     // Height 1 at depth 4 over the frame's height 8 tan(25 degrees) there, and the box is nearer than its middle by 0.1.
     near(sight.height_frac.unwrap(), 1.0 / (2.0 * 3.9 * (FOV_RAD / 2.0).tan()), 1e-6);
     near(sight.area_frac, (1.0_f64 / (8.0 * (FOV_RAD / 2.0).tan())).powi(2) * 9.0 / 16.0, 0.01);

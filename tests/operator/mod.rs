@@ -2,6 +2,7 @@
 
 mod clearance;
 mod composition;
+mod crowded;
 mod edges;
 mod finalists;
 mod flow;

@@ -13,7 +13,7 @@ use super::composition::{CENTER, HALF, assert_met};
 use super::{ROOM, film, room, solved, wall, world};
 
 /// A generated room, prepared for shots of some objects.
-fn generated(seed: u64, ids: &[u32]) -> (OpenedScene, World) {
+pub fn generated(seed: u64, ids: &[u32]) -> (OpenedScene, World) {
     let opened = open_scene(Path::new(&format!("synth:room:{seed}:0.1")), &LoadOptions::default()).unwrap();
     let set = opened.objects.clone().unwrap();
     let world = World::new(&opened.scene.gaussians, opened.scene.up, &set, ids).unwrap();

@@ -29,6 +29,8 @@ pub(super) fn orbit(context: &StepContext) -> Vec<MotionSegment> {
     let away = first.pose.position - pivot;
     let frame = &context.world.frame;
     let degrees = deg_to_side(context, &target, frame.azimuth(away), sign).unwrap_or_else(|| orbit_deg(context));
+    let first = from_front(context, &target, first, degrees);
+    let away = first.pose.position - pivot;
     let (first, squeeze) = squeezed(context, first, degrees);
     let radius = squeeze * frame.horizontal(away).length();
     // A stated angle is kept; else a closer circle at the same height looks down on its subject from above the
@@ -59,6 +61,24 @@ pub(super) fn orbit(context: &StepContext) -> Vec<MotionSegment> {
     segments.push(require_visible(segment, &target, Scope::All));
     segments
 }
+
+/// The first camera of a full turn about a thing that has a front: there, and so the turn ends face to face as well. Others,
+/// and those whose beginning the words or the step before state, begin where they begin.
+fn from_front(context: &StepContext, target: &Target, first: CameraState, degrees: f64) -> CameraState {
+    let (world, step) = (context.world, context.step);
+    let is_stated = step.start.side.or(step.end.side).is_some() || context.before.is_some();
+    let is_turn = (degrees - FULL_TURN_DEG).abs() < FULL_TURN_TOLERANCE_DEG;
+    let front = world.known_front(target.center).filter(|_| is_turn && !is_stated && step.via.is_none());
+    let Some(front_rad) = front else { return first };
+    let away = first.pose.position - target.center;
+    let level = world.frame.horizontal(away).length();
+    let position = target.center + world.frame.direction(front_rad) * level + world.frame.up * world.frame.height(away);
+    aimed(world, &moved(&first, position - first.pose.position), target.center)
+}
+
+/// Angle of a full turn, and by how much it may differ, degrees.
+const FULL_TURN_DEG: f64 = 360.0;
+const FULL_TURN_TOLERANCE_DEG: f64 = 20.0;
 
 /// A wide orbit in a room may be closer than its picture asks for, with a wider lens: the camera, and the factor on the
 /// radius. Parameter 7 chooses it.

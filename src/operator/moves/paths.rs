@@ -7,6 +7,7 @@ use super::room_view::room_target;
 use super::standing::turned_away;
 use crate::composition::{natural_elevation_deg, square_azimuths};
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
+use crate::contents::middle_of_things;
 use crate::detours::is_clear;
 use crate::framing::{Bearing, Fill, Target, bearing_of};
 use crate::motion::MotionSegment;
@@ -53,15 +54,33 @@ fn goes_over(context: &StepContext, start: &Target, end: &Target) -> bool {
 }
 
 /// Share of the way to what it looks at that a camera walks into a room where the prompt names no goal.
-const WALK_FRAC: (f64, f64) = (0.45, 0.75);
+const WALK_FRAC: (f64, f64) = (0.36, 0.66);
+/// Largest turn of a camera that walks into a room to what it comes to, radians: to a side, and up or down.
+const MOST_WALK_TURN_RAD: [f64; 2] = [0.2, 0.14];
 
 /// Walks into a room at one height, along the view from where somebody stands.
 fn walk(context: &StepContext, ahead: &Target) -> Vec<MotionSegment> {
     let first = context.view(ahead, &context.opening_framing(), (0.4, 0.7), NORMAL_LENS_DEG);
     let way = context.world.frame.horizontal(ahead.aim - first.pose.position);
-    let last = moved(&first, way * lerp(WALK_FRAC, context.parameters[6]));
+    let last = turned_to_things(context, &moved(&first, way * lerp(WALK_FRAC, context.parameters[6])));
     let segment = context.constrained_at_end(context.constrained_at_start(glide(context, &first, &last)));
     vec![segment]
+}
+
+/// The camera turned so far that what it shows lies about the middle of its picture. Who walks up to a desk looks down to it.
+fn turned_to_things(context: &StepContext, state: &CameraState) -> CameraState {
+    let world = context.world;
+    let middle = middle_of_things(world, state).filter(|_| !context.forbids_turning());
+    let Some(at) = middle else { return *state };
+    let tan = 2.0 * (state.fov_y_rad / 2.0).tan();
+    let [aside, upright] = MOST_WALK_TURN_RAD;
+    let angles = world.frame.angles(state.pose.rotation);
+    let rotation = world.frame.rotation(LevelAngles {
+        yaw_rad: angles.yaw_rad + (at.x * tan * world.aspect).atan().clamp(-aside, aside),
+        pitch_rad: angles.pitch_rad + (at.y * tan).atan().clamp(-upright, upright),
+        ..angles
+    });
+    CameraState { pose: Pose { rotation, ..state.pose }, ..*state }
 }
 
 /// A view of the step's end target with the field of view of its start, so that only the camera's travel changes the
@@ -76,7 +95,7 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
     let band = context.step.end.angle.map(|angle| {
         let (low, high) = pitch_band_deg(angle);
         match angle {
-            ShotAngle::Overhead => (64.0, 84.0),
+            ShotAngle::Overhead => (56.0, 84.0),
             ShotAngle::High => (24.0, 38.0),
             _ => (-high.min(34.0), -low.max(-70.0)),
         }

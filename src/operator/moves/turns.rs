@@ -1,6 +1,6 @@
 //! Moves that leave the camera in place: hold, handheld, pan, tilt, roll.
 
-use glam::DVec3;
+use glam::{DVec2, DVec3};
 
 use super::context::{NORMAL_LENS_DEG, StepContext, is_stated, require_visible};
 use super::overlook::overlook;
@@ -10,6 +10,7 @@ use super::standing_view::stands;
 use super::sway::{num_sways, swayed};
 use crate::composition::front_azimuth;
 use crate::constraint::{Constraint, ConstraintKind, Scope, pitch_band_deg};
+use crate::crowding::stands_free;
 use crate::framing::{Target, extent_frac, frame_position, off_center};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing, Motion, SubjectPart};
@@ -48,10 +49,19 @@ pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
             framing.angle = framing.angle.or(context.step.end.angle);
             framing.whole |= context.step.end.whole;
             context.inherit(&mut framing);
+            let first = target.ids.first().and_then(|id| context.world.subject(*id));
+            let is_free_standing = first.is_some_and(|subject| stands_free(context.world, subject));
             // A thing that is all there is fills the picture.
-            let fill = if target.ids.is_empty() { (0.65, 0.88) } else { (0.45, 0.75) };
+            let fill = match (target.ids.len(), context.is_last) {
+                (0, _) => (0.65, 0.88),
+                (1 | 2, true) if is_free_standing => PORTRAIT_FILL,
+                (3.., true) => GROUP_FILL,
+                _ => (0.45, 0.75),
+            };
             let view = context.view(&target, &framing, fill, NORMAL_LENS_DEG);
-            (Vec::new(), if is_free(context, &framing) { on_a_third(context, &target, view) } else { view })
+            let is_free = target.ids.len() <= 1 && is_free(context, &framing);
+            let view = if is_free { on_a_third(context, &target, view) } else { view };
+            (Vec::new(), if target.ids.len() > 2 { with_all_amid(context, &target, view) } else { view })
         }
     };
     let natural = match (context.before.is_none(), context.is_last) {
@@ -72,13 +82,16 @@ pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
     segments
 }
 
+/// Size in the frame of what a film holds from its start to its end and nothing else: of a thing, and of many.
+const PORTRAIT_FILL: (f64, f64) = (0.58, 0.78);
+const GROUP_FILL: (f64, f64) = (0.76, 0.94);
 /// Largest distance from the frame's middle of a subject that a hold after another step leaves where it is.
 const HELD_OFF: f64 = 0.2;
 /// Distance of the thirds from the frame's middle, over its width.
 const THIRD: f64 = 1.0 / 6.0;
 /// Largest width of a subject that is placed on a third, over the frame's width: a wider one would nearly touch the
 /// edge.
-const MAX_THIRD_WIDTH: f64 = 0.5;
+const MAX_THIRD_WIDTH: f64 = 0.45;
 
 /// Least sine of the angle between the view axis and the front of a subject that faces a side of the picture.
 const LEAST_ACROSS: f64 = 0.3;
@@ -108,6 +121,31 @@ fn on_a_third(context: &StepContext, target: &Target, view: CameraState) -> Came
         beside *= THIRD / across.max(0.01);
     }
     out
+}
+
+/// Pitch of a view that is turned to the middle of many things at least, radians.
+const STEEPEST_RAD: f64 = -0.96;
+
+/// The view of many things turned so that they lie about the middle of the picture: from near by, that is not where the middle
+/// of the box about them lies. Stated places stay.
+fn with_all_amid(context: &StepContext, target: &Target, view: CameraState) -> CameraState {
+    let world = context.world;
+    let is_placed = context.step.start.place.or(context.step.end.place).is_some();
+    // From straight above a turn to a side is a roll.
+    if is_placed || world.frame.angles(view.pose.rotation).pitch_rad < STEEPEST_RAD {
+        return view;
+    }
+    let turned = |view: CameraState| {
+        let positions = target.corners.iter().map(|corner| frame_position(world, &view, *corner).map(|(at, _)| at));
+        let (low, high) = positions
+            .flatten()
+            .fold((DVec2::INFINITY, DVec2::NEG_INFINITY), |(low, high), at| (low.min(at), high.max(at)));
+        let middle = low.midpoint(high) * 2.0 * (view.fov_y_rad / 2.0).tan() * DVec2::new(world.aspect, 1.0);
+        let toward = view.pose.rotation * DVec3::new(middle.x, -middle.y, 1.0);
+        if toward.is_finite() { aimed(world, &view, view.pose.position + toward) } else { view }
+    };
+    // The first turn leaves a tenth of the way, since near things move more than far ones.
+    turned(turned(view))
 }
 
 /// Side of the picture that a subject faces, right positive, so that the room is in front of it; `None` where it faces
