@@ -209,8 +209,7 @@ fn times_at(words: &[Word], i: usize) -> Option<(usize, f64)> {
     match word_at(words, i) {
         "half" if word_at(words, i + 1) == "of" => return Some((2, 0.5)),
         "half" => return Some((1, 0.5)),
-        "twice" | "double" | "dbl" => return Some((1, 2.0)),
-        "twofold" => return Some((1, 2.0)),
+        "twice" | "double" | "dbl" | "twofold" => return Some((1, 2.0)),
         "triple" | "threefold" | "thrice" => return Some((1, 3.0)),
         "quadruple" | "fourfold" => return Some((1, 4.0)),
         "fivefold" => return Some((1, 5.0)),
