@@ -34,6 +34,10 @@ fn idioms_become_words_of_the_trade() {
         ("pose B = pose A + 0.5 m right", "then truck right <qty-0> without turning"),
         ("start down by the tiles looking up at [the mug]", "start with a low angle looking up at <obj-0>"),
         ("no [palm] anywhere", "never show <obj-0>"),
+        ("circle [it], keep to the left of the [table]", "circle <obj-0> past <obj-1>"),
+        ("mind [the stool], don't bump into it", ","),
+        ("the last 2 seconds decelerate to a stop", "the last <qty-0> decelerate to a stop"),
+        ("push in, the last 2 seconds decelerate to a stop", "push in , easing out"),
     ] {
         assert_eq!(linked(prompt).1.tokens_text, plain, "{prompt}");
     }

@@ -411,6 +411,34 @@ mod tests {
     }
 
     #[test]
+    fn of_things_on_another_one_the_words_may_tell_the_side() {
+        let at = |id, label: &str, [x, y, z]: [f64; 3], half: f64| {
+            Object::from_box(id, label, DVec3::new(x, y, z), DVec3::splat(half))
+        };
+        // From the middle of the room, where x grows to the left.
+        let objects = [
+            at(1, "sideboard", [0.0, 0.4, 2.5], 0.4),
+            at(2, "candle 1", [0.3, 0.9, 2.5], 0.08),
+            at(3, "candle 2", [-0.3, 0.9, 2.5], 0.08),
+            at(4, "vase", [0.0, 0.95, 2.5], 0.1),
+            at(5, "vase", [0.0, 0.95, -2.5], 0.1),
+            at(6, "guitar", [0.0, 0.4, -2.5], 0.4),
+        ];
+        let pointed = |prompt: &str, words: &str, id: u32| pointed_among(&objects, prompt, &[(words, &[id])]).remove(0);
+        let (of, on) = ("the left-hand candle of the sideboard", "the right candle on the sideboard");
+        assert_eq!((pointed(of, of, 1), pointed(on, on, 1)), (vec![2], vec![3]));
+        assert_eq!(pointed("the flowers on the sideboard", "the flowers on the sideboard", 1), [4]);
+        assert_eq!(pointed("the top of the sideboard", "the top of the sideboard", 1), [1]);
+        // Without places they are one of the kind.
+        let names: Vec<NamedObject> =
+            objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect();
+        let mention = Mention { bytes: [0, on.len()], ids: vec![1] };
+        let mut found = vec![FoundMention { mention, probability: 1.0, nearest: Vec::new() }];
+        point_by_places(on, &names, Places { objects: &[], up: DVec3::Y }, &mut found);
+        assert_eq!(found[0].mention.ids, [2]);
+    }
+
+    #[test]
     fn a_thing_beside_another_is_the_nearest_of_its_kind() {
         let ids = pointed(
             "the guitar by the blue door, down its strings, then the other guitar",

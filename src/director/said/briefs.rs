@@ -347,6 +347,7 @@ fn about(subjects: &[Vec<u32>], words: &[&str]) -> Vec<Step> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::said::fixture::{about as step, direction, linked};
 
     fn brief(text: &str) -> bool {
         is_brief(&text.split(' ').collect::<Vec<_>>())
@@ -381,5 +382,28 @@ mod tests {
         assert_eq!(moves(&[vec![1], vec![2, 3]], "<obj-0> and <obj-1> from our shop"), [Move::ArcRight]);
         assert_eq!(moves(&[vec![1]], "<obj-0> at rest"), [Move::PushIn]);
         assert_eq!(moves(&[vec![1], vec![2, 3]], "<obj-0> and <obj-1> , each on its own"), [Move::Follow]);
+    }
+    #[test]
+    fn a_mood_without_a_thing_is_a_look_around() {
+        let films = |text: &str| {
+            let mut direction = direction(Vec::new());
+            film_moods(&linked(text), &mut direction);
+            direction.program.steps.iter().map(|step| step.movement).collect::<Vec<Move>>()
+        };
+        assert_eq!(films("something romantic about dinner for two"), [Move::PanRight]);
+        assert_eq!(films("good morning to you all"), []);
+        assert_eq!(films("something romantic about <obj-0>"), []);
+    }
+
+    #[test]
+    fn many_things_are_shown_all_round() {
+        let shown = |text: &str, ids: &[u32]| {
+            let mut direction = direction(vec![step(Move::Static, ids, [0, 1])]);
+            show_many(&linked(text), &mut direction);
+            direction.program.steps[0].movement
+        };
+        assert_eq!(shown("show me all that is on <obj-0>", &[1, 2, 3]), Move::ArcRight);
+        assert_eq!(shown("show me <obj-0> and <obj-1>", &[1, 2]), Move::Static);
+        assert_eq!(shown("show me a still of <obj-0>", &[1, 2, 3]), Move::Static);
     }
 }

@@ -236,3 +236,23 @@ fn is_sideways(movement: Move) -> bool {
             | Move::ArcRight
     )
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::said::fixture::{about, linked};
+
+    #[test]
+    fn a_circle_goes_the_other_way_than_the_one_before() {
+        let text = "circle <obj-0> , then round the other way";
+        let mut steps = [
+            Step { either_way: true, ..about(Move::OrbitLeft, &[5], [0, 14]) },
+            Step { either_way: true, ..about(Move::OrbitLeft, &[5], [17, text.len()]) },
+        ];
+        go_other_way(&linked(text), &mut steps);
+        assert_eq!(
+            steps.map(|step| (step.movement, step.either_way)),
+            [(Move::OrbitLeft, false), (Move::OrbitRight, false)]
+        );
+    }
+}
