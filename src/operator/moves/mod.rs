@@ -32,7 +32,7 @@ mod with;
 
 pub(super) use context::StepContext;
 
-use super::constraint::pitch_band_deg;
+use super::constraint::{ConstraintKind, Scope, pitch_band_deg};
 use super::framing::Target;
 use super::motion::MotionSegment;
 use super::program::{Framing, Motion, Pass, Step, SubjectPart, Via};
@@ -105,11 +105,14 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
         }
         Move::PushIn | Move::PullOut => dolly::dolly(context),
         Move::TruckLeft | Move::TruckRight => straight::truck(context),
-        Move::PedestalUp if (leads_aside(context) || leads_above(context)) && !keeps_its_view(context) => {
+        Move::PedestalUp if leads_above(context) && !keeps_its_view(context) => {
             made_as(context, Move::CraneUp, circles::crane)
         }
+        Move::PedestalUp if leads_aside(context) && !keeps_its_view(context) => {
+            hardly_turning(made_as(context, Move::CraneUp, circles::crane))
+        }
         Move::PedestalDown if leads_aside(context) && !keeps_its_view(context) => {
-            made_as(context, Move::CraneDown, circles::crane)
+            hardly_turning(made_as(context, Move::CraneDown, circles::crane))
         }
         Move::PedestalUp | Move::PedestalDown => straight::pedestal(context),
         Move::CraneUp if keeps_its_view(context) => made_as(context, Move::PedestalUp, straight::pedestal),
@@ -129,6 +132,23 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
 fn made_as(context: &StepContext, movement: Move, make: fn(&StepContext) -> Vec<MotionSegment>) -> Vec<MotionSegment> {
     let step = Step { movement, ..context.step.clone() };
     make(&StepContext { step: &step, ..context.clone() })
+}
+
+/// Largest turn to a side, and up or down, of a rise or a descent between two subjects, degrees: no more than needed.
+const PEDESTAL_TURN_DEG: f64 = 8.0;
+
+/// The segments as those of a camera that rises or sinks, and looks to its end with little of a turn.
+fn hardly_turning(segments: Vec<MotionSegment>) -> Vec<MotionSegment> {
+    let range = (-PEDESTAL_TURN_DEG, PEDESTAL_TURN_DEG);
+    let held = |segment: MotionSegment| {
+        if segment.is_join {
+            return segment;
+        }
+        segment
+            .requiring(Scope::All, ConstraintKind::YawChange(range))
+            .requiring(Scope::All, ConstraintKind::PitchChange(range))
+    };
+    segments.into_iter().map(held).collect()
 }
 
 /// Whether a rise or a descent leads from one subject to another that is neither above nor below it: without a turn and a
