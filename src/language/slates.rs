@@ -15,7 +15,8 @@ const MOST_DIGITS: usize = 4;
 /// Bytes of the names of requirements, each with its colon.
 fn requirements(prompt: &str) -> Vec<[usize; 2]> {
     let named = |colon: usize| {
-        let from = prompt[..colon].rfind(char::is_whitespace).map_or(0, |at| at + 1);
+        let from =
+            colon - prompt[..colon].chars().rev().take_while(|c| !c.is_whitespace()).map(char::len_utf8).sum::<usize>();
         let (letters, digits) = prompt[from..colon].split_once('-')?;
         let is_name = LETTERS.contains(&letters.len()) && letters.chars().all(|letter| letter.is_ascii_uppercase());
         let is_number = (1..=MOST_DIGITS).contains(&digits.len()) && digits.chars().all(|digit| digit.is_ascii_digit());

@@ -46,11 +46,7 @@ fn unit_before(words: &[Word], i: usize, end: usize) -> Option<(QuantityKind, f6
         && word_at(words, end) == "to"
         && matches!(word_at(words, end + 1), "the" | "your" | "its")
         && matches!(word_at(words, end + 2), "left" | "right");
-    // `In three seconds, then take six more to close in`.
-    let is_more = matches!(before, "take" | "takes" | "taking" | "for" | "then" | "another")
-        && word_at(words, end) == "more"
-        && matches!(word_at(words, end + 1), "to" | "for" | "on" | "," | "." | "");
-    if !(is_end && ends_phrase(words, end) || in_list || is_direction || is_aside || is_more) {
+    if !(is_end && ends_phrase(words, end) || in_list || is_direction || is_aside) {
         return None;
     }
     let first = i.saturating_sub(LOOK_BACK);
