@@ -3,7 +3,7 @@
 //! The network sometimes turns a direction around that is said plainly. Where the verb of a step's move is followed by a
 //! direction, the step takes it.
 
-use cinesplat_language::{Linked, QuantityKind};
+use cinesplat_language::{Linked, QuantityKind, is_listed};
 use cinesplat_operator::{Framing, Motion, Step, SubjectPart};
 use cinesplat_trajectory::Move;
 
@@ -296,6 +296,30 @@ const FAMILIES: [Family; 10] = [
     (&["zoom"], [("in", Move::ZoomIn), ("out", Move::ZoomOut)]),
 ];
 
+/// Verbs of a rise and of a descent, and words of one that stand alone.
+const RISING: [&str; 7] = ["rise", "ascend", "climb", "lift", "soar", "raise", "crane"];
+const SINKING: [&str; 5] = ["sink", "descend", "lower", "drop", "dip"];
+const UP: &str = "up upward upwards higher";
+const DOWN: &str = "down downward downwards";
+
+/// Turns a rise beside another move into the descent that the words say, and the other way round: `circle the chair while sinking,
+/// faster and faster`.
+pub(crate) fn rise_or_sink(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_one = |verbs: &[&str], list: &str| {
+            words.iter().any(|word| verbs.iter().any(|verb| is_form(word, verb)) || is_listed(list, word))
+        };
+        let said = match (is_one(&RISING, UP), is_one(&SINKING, DOWN)) {
+            (true, false) => [Move::CraneUp, Move::PedestalUp],
+            (false, true) => [Move::CraneDown, Move::PedestalDown],
+            _ => continue,
+        };
+        let back = |second: &Move| second.opposite().filter(|opposite| said.contains(opposite));
+        step.with = step.with.iter().map(|second| back(second).unwrap_or(*second)).collect();
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -322,5 +346,19 @@ mod tests {
         let [start, end] = [&steps[0].start, &steps[0].end];
         assert_eq!((&start.subjects[..], start.part), (&[5][..], SubjectPart::Top));
         assert_eq!((&end.subjects[..], end.part), (&[5][..], SubjectPart::Bottom));
+    }
+
+    #[test]
+    fn what_sinks_beside_a_circle_does_not_rise() {
+        let second = |text: &str, second: Move| {
+            let linked = crate::said::fixture::linked(text);
+            let mut steps = [Step { with: vec![second], words: Some([0, text.len()]), ..Step::of(Move::OrbitRight) }];
+            rise_or_sink(&linked, &mut steps);
+            steps[0].with[0]
+        };
+        assert_eq!(second("circle <obj-0> while sinking , faster and faster", Move::CraneUp), Move::CraneDown);
+        assert_eq!(second("rise as you circle <obj-0>", Move::PedestalDown), Move::PedestalUp);
+        assert_eq!(second("sink , then rise around <obj-0>", Move::CraneUp), Move::CraneUp);
+        assert_eq!(second("circle <obj-0> while sinking", Move::PushIn), Move::PushIn);
     }
 }

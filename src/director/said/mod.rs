@@ -255,6 +255,7 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     repeats::drop_restated(direction);
     encores::repeat_all(linked, direction);
     open::go_other_way(linked, &mut direction.program.steps);
+    directions::rise_or_sink(linked, &mut direction.program.steps);
     lengths::take_total(linked, direction);
     asides::time_title(linked, &mut direction.program);
     arrivals::end_at_stops(linked, &mut direction.program.steps);
