@@ -86,6 +86,36 @@ impl Direction {
         self.program.steps.insert(nth, rest);
     }
 
+    /// Inserts all of another direction before step `nth`.
+    pub(crate) fn insert_all(&mut self, nth: usize, other: Self) {
+        let count = other.program.steps.len();
+        let mut cameras = other.step_cameras;
+        if cameras.len() < count {
+            let last = cameras.last().or(self.step_cameras.last()).map(|cameras| cameras.end);
+            cameras.extend(last.map(|camera| StepCameras { start: camera, end: camera, secs: 1.0 }));
+        }
+        if self.step_cameras.len() >= nth && cameras.len() == count {
+            self.step_cameras.splice(nth..nth, cameras);
+        } else {
+            // Cameras that belong to no step are worth nothing.
+            self.step_cameras.clear();
+        }
+        let at = nth.min(self.certainty.len());
+        self.certainty.splice(at..at, other.certainty);
+        self.program.steps.splice(nth..nth, other.program.steps);
+        self.unmet.extend(other.unmet);
+        self.program.duration_secs = self.program.duration_secs.or(other.program.duration_secs);
+    }
+
+    /// Moves the first steps behind all others. The network's cameras, which belong to another order, are dropped.
+    pub(crate) fn move_to_end(&mut self, count: usize) {
+        self.program.steps.rotate_left(count);
+        if self.certainty.len() == self.program.steps.len() {
+            self.certainty.rotate_left(count);
+        }
+        self.step_cameras.clear();
+    }
+
     /// Removes a step with its cameras and its certainty.
     pub fn remove_step(&mut self, nth: usize) {
         fn remove<T>(list: &mut Vec<T>, nth: usize) {

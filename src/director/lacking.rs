@@ -48,10 +48,9 @@ pub(crate) fn name_lacking(
         if is_listed(UNMISTAKABLE, &words[at].text) {
             mistake_nothing(objects, &words[at], [words[first - 1].span[0], bytes[0]], found)?;
         }
-        let is_persona = is_no_thing(prompt, &Mention { bytes, ids: Vec::new() }, objects);
-        if is_persona
-            || is_linked(found, bytes)
+        if is_linked(found, bytes)
             || objects.iter().any(|object| may_mean(&words[at].stem, &object.label))
+            || is_no_thing(prompt, &Mention { bytes, ids: Vec::new() }, objects)
         {
             continue;
         }

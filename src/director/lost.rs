@@ -3,7 +3,6 @@
 //! Enters: a linked prompt and what was read of it. Leaves: the same with the steps of such clauses, each read by itself.
 
 use cinesplat_language::{Linked, is_listed};
-use cinesplat_operator::StepCameras;
 use cinesplat_trajectory::Move;
 
 use crate::direction::Direction;
@@ -42,7 +41,7 @@ pub(crate) fn add_lost_clauses(
         let found = read(&linked.part(bytes, subject))?;
         let says = directs(&linked.texts_in(bytes));
         if is_sound(&found, says) && direction.program.steps.len() + found.program.steps.len() < MAX_KEYS {
-            insert(direction, nth, found);
+            direction.insert_all(nth, found);
         }
     }
     Ok(())
@@ -86,60 +85,24 @@ fn is_sound(found: &Direction, says: bool) -> bool {
         && found.certainty.iter().all(|step| step.probability >= if says { LEAST } else { LEAST_UNSAID })
 }
 
-/// Inserts all that a clause was read as before step `nth`.
-fn insert(direction: &mut Direction, nth: usize, found: Direction) {
-    let rest = |camera| StepCameras { start: camera, end: camera, secs: 1.0 };
-    let mut cameras = found.step_cameras;
-    if direction.step_cameras.len() < nth {
-        cameras.clear();
-    } else if cameras.len() < found.program.steps.len() {
-        let last =
-            cameras.last().map(|cameras| cameras.end).or(direction.step_cameras.last().map(|cameras| cameras.end));
-        cameras.extend(last.map(rest));
-        cameras.truncate(found.program.steps.len());
-    }
-    if cameras.len() == found.program.steps.len() {
-        direction.step_cameras.splice(nth..nth, cameras);
-    } else {
-        // Cameras that belong to no step are worth nothing.
-        direction.step_cameras.clear();
-    }
-    let at = nth.min(direction.certainty.len());
-    direction.certainty.splice(at..at, found.certainty);
-    direction.program.steps.splice(nth..nth, found.program.steps);
-    direction.unmet.extend(found.unmet);
-    direction.program.duration_secs = direction.program.duration_secs.or(found.program.duration_secs);
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::direction::StepCertainty;
-    use cinesplat_operator::{Framing, Program, Step};
+    use crate::said::fixture::{about, direction, linked};
 
-    /// A step that shows one thing, of some words.
+    /// A step that shows one thing, of some words, and is quite sure.
     fn shown(movement: Move, id: u32, words: [usize; 2]) -> Direction {
-        let end = Framing { subjects: vec![id], ..Framing::default() };
-        let steps = vec![Step { end, words: Some(words), ..Step::of(movement) }];
         let certainty = vec![StepCertainty { probability: 0.9, weakest: ("move", 0.9), words: Some(words) }];
-        Direction { program: Program { steps, ..Program::default() }, certainty, ..Direction::default() }
-    }
-
-    fn linked(text: &str) -> Linked {
-        let mut spans: Vec<[usize; 2]> = Vec::new();
-        for word in text.split(' ') {
-            let at = spans.last().map_or(0, |span| span[1] + 1);
-            spans.push([at, at + word.len()]);
-        }
-        Linked { tokens_text: text.to_owned(), spans, slots: vec![3, 5], ..Linked::default() }
+        Direction { certainty, ..direction(vec![about(movement, &[id], words)]) }
     }
 
     #[test]
     fn a_clause_that_no_step_comes_from_is_read_by_itself() {
         let moves = |text: &str| {
             let linked = linked(text);
-            let mut direction = shown(Move::Static, 3, [0, 10]);
-            let read = |part: &Linked| Ok(shown(Move::PullOut, 5, [part.spans[0][0], usize::MAX]));
+            let mut direction = shown(Move::Static, 5, [0, 10]);
+            let read = |part: &Linked| Ok(shown(Move::PullOut, 7, [part.spans[0][0], usize::MAX]));
             add_lost_clauses(&linked, &mut direction, &read).unwrap();
             direction.program.steps.iter().map(|step| step.movement).collect::<Vec<Move>>()
         };

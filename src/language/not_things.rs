@@ -84,13 +84,15 @@ fn is_likeness(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]
     let text = |back: usize| before.checked_sub(back).map_or("", |at| word_at(words, at));
     let is_compared = text(1) == "like" && matches!(owner, "a" | "an") && !is_listed("look looks looking", text(2));
     let is_persona = is_listed(OWNERS, owner) && PERSONAS.contains(&[text(2), text(1)]);
-    let is_named = |word: &Word| {
-        objects.iter().any(|object| {
-            tokenize(&object.label).iter().any(|own| own.stem == word.stem)
-                || Things::embedded().is_related(&object.label, &word.stem, &[Relation::Same])
-        })
-    };
-    noun < end && (is_compared || is_persona) && !words[noun..end].iter().any(is_named)
+    noun < end && (is_compared || is_persona) && !words[noun..end].iter().any(|word| is_called(objects, word))
+}
+
+/// Whether a thing of the scene is called so: by a word of its label, or by another name for it.
+fn is_called(objects: &[NamedObject], word: &Word) -> bool {
+    objects.iter().any(|object| {
+        Things::embedded().is_related(&object.label, &word.stem, &[Relation::Same])
+            || tokenize(&object.label).iter().any(|own| own.stem == word.stem)
+    })
 }
 
 /// What floors are made of, and words of who is near them.
@@ -103,13 +105,9 @@ const BESIDE_FLOOR: &str = "by on at near to with the just right against above o
 fn is_floor(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
     let names: Vec<&Word> = words[first..end].iter().filter(|word| word.text != "the").collect();
     let is_one = names.len() == 1 && is_listed(FLOORS, &names[0].stem);
-    let is_label = |object: &NamedObject| {
-        Things::embedded().is_related(&object.label, &names[0].stem, &[Relation::Same])
-            || tokenize(&object.label).iter().any(|word| word.stem == names[0].stem)
-    };
     let mut before = words[..first].iter().rev().skip_while(|word| is_listed(BESIDE_FLOOR, &word.text));
     let is_low = before.next().is_some_and(|word| is_listed(LOW, &word.text));
-    is_one && is_low && !objects.iter().any(is_label)
+    is_one && is_low && !is_called(objects, names[0])
 }
 
 /// Verbs of who goes where the light goes, and words behind it.

@@ -2,7 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
-use super::framing::Target;
+use super::framing::{MANY, Target, frame_ray};
 use super::program::{FramePlace, Lens, SubjectSide};
 use super::world::World;
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
@@ -60,8 +60,7 @@ pub(super) fn place_words(place: FramePlace) -> &'static str {
 pub(super) fn placed(world: &World, state: &CameraState, point: DVec3, at: DVec2) -> CameraState {
     let Some(direction) = (point - state.pose.position).try_normalize() else { return *state };
     let frame = &world.frame;
-    let half = 2.0 * (state.fov_y_rad / 2.0).tan();
-    let ray = DVec3::new(at.x * half * world.aspect, -at.y * half, 1.0).normalize();
+    let ray = frame_ray(world, state, at).normalize();
     let rise = (frame.height(direction) / ray.z.hypot(ray.y)).clamp(-1.0, 1.0).asin();
     let pitch_rad = rise - (-ray.y).atan2(ray.z);
     let (sin, cos) = pitch_rad.sin_cos();
@@ -170,8 +169,7 @@ pub(super) fn natural_elevation_deg(world: &World, target: &Target) -> (f64, f64
     }
 }
 
-/// Things from which on a target is a group, and the elevation from which each of a group is told from the others, degrees.
-const MANY: usize = 3;
+/// Elevation from which each of many things is told from the others, degrees.
 const MANY_ELEVATION_DEG: (f64, f64) = (18.0, 38.0);
 /// Height of a surface with things on it, over that of a standing person's eyes, at which it is looked down on: a table or
 /// a desk, and no bed.

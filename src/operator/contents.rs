@@ -5,6 +5,7 @@
 
 use glam::DVec2;
 
+use super::crowding::LARGE_FRAC;
 use super::framing::frame_position;
 use super::lookout::Thing;
 use super::motion::MotionSegment;
@@ -17,8 +18,6 @@ const LEAST_THINGS: usize = 12;
 const CUT_COST: f64 = 0.8;
 const ASIDE_COST: f64 = 1.0;
 const NOTHING_COST: f64 = 1.0;
-/// Radius of a thing over the scene size from which it is part of the room.
-const LARGE_FRAC: f64 = 0.22;
 /// Largest weight of one thing: its diameter over the frame's height.
 const MOST_WEIGHT: f64 = 0.35;
 /// Sum of the weights from which a picture shows enough.

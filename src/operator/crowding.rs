@@ -6,7 +6,7 @@
 use glam::DVec2;
 
 use super::constraint::{Constraint, ConstraintKind, Scope};
-use super::framing::frame_position;
+use super::framing::{MANY, frame_bounds, frame_ray};
 use super::motion::MotionSegment;
 use super::world::{Subject, World};
 use cinesplat_trajectory::CameraState;
@@ -25,7 +25,7 @@ const BESIDE_WEIGHT: f64 = 0.5;
 /// Distance before the nearest corner of a subject's box from which matter stands before it, over the scene size.
 const BEFORE_FRAC: f64 = 0.02;
 /// Radius of a subject over the scene size from which it is part of the room, which things always stand before.
-const LARGE_FRAC: f64 = 0.22;
+pub(super) const LARGE_FRAC: f64 = 0.22;
 /// Height over breadth below which a subject is flat.
 const FLAT: f64 = 0.2;
 
@@ -62,14 +62,9 @@ fn asks_foreground(constraint: &Constraint) -> bool {
 /// Share of a subject's part of a picture, and of a margin about it, that nearer matter takes; 0 for a subject behind the
 /// camera.
 fn crowded_frac(world: &World, state: &CameraState, subject: &Subject) -> f64 {
-    let (mut low, mut high, mut near) = (DVec2::INFINITY, DVec2::NEG_INFINITY, f64::INFINITY);
-    for &corner in &subject.corners {
-        let Some((at, depth)) = frame_position(world, state, corner) else { return 0.0 };
-        (low, high, near) = (low.min(at), high.max(at), near.min(depth));
-    }
-    let size = high - low;
-    let (box_low, box_high) = (low, high);
-    let (low, high) = (low + size * DVec2::new(-BESIDE, FOOT), high + size * DVec2::new(BESIDE, ABOVE));
+    let Some(([box_low, box_high], near)) = frame_bounds(world, state, &subject.corners) else { return 0.0 };
+    let size = box_high - box_low;
+    let (low, high) = (box_low + size * DVec2::new(-BESIDE, FOOT), box_high + size * DVec2::new(BESIDE, ABOVE));
     // What a table bears is part of its picture.
     let borne = subject.borne_heights.map_or(0.0, |[surface, highest]| highest - surface);
     let before = near - BEFORE_FRAC * world.bounds.size() - borne;
@@ -84,8 +79,7 @@ fn crowded_frac(world: &World, state: &CameraState, subject: &Subject) -> f64 {
         let is_over = at.cmpge(box_low).all() && at.cmple(box_high).all();
         let weight = if is_over { 1.0 } else { BESIDE_WEIGHT };
         framed += weight;
-        let tan = 2.0 * (state.fov_y_rad / 2.0).tan();
-        let ray = DVec2::new(at.x * tan * world.aspect, -at.y * tan).extend(1.0);
+        let ray = frame_ray(world, state, at);
         let (length, ray) = (ray.length(), state.pose.rotation * ray.normalize());
         let hit = world.hit_distance(state.pose.position, ray).map(|distance| distance / length);
         taken += if hit.is_some_and(|depth| depth < before) { weight } else { 0.0 };
@@ -95,8 +89,6 @@ fn crowded_frac(world: &World, state: &CameraState, subject: &Subject) -> f64 {
 
 /// Cost of many things of which all hide one another in the last picture.
 const HEAP_COST: f64 = 1.4;
-/// Things from which on a picture is one of many.
-const MANY: usize = 3;
 
 /// Cost of a picture of many things that overlap: each should be told from its neighbors.
 pub(super) fn heap_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
@@ -111,12 +103,7 @@ pub(super) fn heap_cost(world: &World, segment: &MotionSegment, states: &[Camera
 /// Share of the parts of the picture that some things take which other ones of them take as well; the part of a thing is
 /// the box about it.
 fn overlap_frac(world: &World, state: &CameraState, ids: &[u32]) -> f64 {
-    let part = |id: &u32| {
-        let positions: Option<Vec<DVec2>> =
-            world.subject(*id)?.corners.iter().map(|c| frame_position(world, state, *c).map(|(at, _)| at)).collect();
-        let positions = positions?;
-        Some([positions.iter().copied().reduce(DVec2::min)?, positions.into_iter().reduce(DVec2::max)?])
-    };
+    let part = |id: &u32| frame_bounds(world, state, &world.subject(*id)?.corners).map(|(bounds, _)| bounds);
     let parts: Vec<[DVec2; 2]> = ids.iter().filter_map(part).collect();
     let area = |[low, high]: [DVec2; 2]| (high - low).max(DVec2::ZERO).element_product();
     let common = |a: &[DVec2; 2], b: &[DVec2; 2]| area([a[0].max(b[0]), a[1].min(b[1])]);

@@ -7,6 +7,9 @@ use super::world::{Subject, World};
 use cinesplat_geometry::Pose;
 use cinesplat_trajectory::CameraState;
 
+/// Things from which on a picture is one of many.
+pub(super) const MANY: usize = 3;
+
 /// The target of a view: a point to aim at, and the corners that must fit.
 #[derive(Debug, Clone)]
 pub(super) struct Target {
@@ -134,15 +137,26 @@ pub(super) fn off_center(world: &World, state: &CameraState, point: DVec3) -> f6
     frame_position(world, state, point).map_or(f64::INFINITY, |(at, _)| at.abs().max_element())
 }
 
+/// The way to a place in the frame ([`frame_position`]), in camera axes, with depth 1.
+pub(super) fn frame_ray(world: &World, state: &CameraState, at: DVec2) -> DVec3 {
+    let tan = 2.0 * (state.fov_y_rad / 2.0).tan();
+    DVec3::new(at.x * tan * world.aspect, -at.y * tan, 1.0)
+}
+
+/// Least and largest place in the frame ([`frame_position`]) of points, and the least depth; `None` where a point is behind the
+/// camera.
+pub(super) fn frame_bounds(world: &World, state: &CameraState, points: &[DVec3]) -> Option<([DVec2; 2], f64)> {
+    let (mut low, mut high, mut near) = (DVec2::INFINITY, DVec2::NEG_INFINITY, f64::INFINITY);
+    for &point in points {
+        let (at, depth) = frame_position(world, state, point)?;
+        (low, high, near) = (low.min(at), high.max(at), near.min(depth));
+    }
+    Some(([low, high], near))
+}
+
 /// Width and height of the points' projection over the frame's; infinite where a point is behind the camera.
 pub(super) fn extent_frac(world: &World, state: &CameraState, points: &[DVec3]) -> DVec2 {
-    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    for &point in points {
-        let Some((at, _)) = frame_position(world, state, point) else { return DVec2::INFINITY };
-        low = low.min(at);
-        high = high.max(at);
-    }
-    high - low
+    frame_bounds(world, state, points).map_or(DVec2::INFINITY, |([low, high], _)| high - low)
 }
 
 /// Share of the points inside the frame, which is shrunk by `margin` of its size on every side.

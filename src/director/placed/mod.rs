@@ -201,10 +201,8 @@ fn placed(
         .filter_map(|id| fit(places, *id, relation, &others).map(|(misfit, width)| (misfit, *id, width)))
         .collect();
     fits.sort_by(|a, b| a.0.total_cmp(&b.0));
-    // `The left candle on the sideboard` is one of those that stand there.
-    let there = || -> Vec<u32> { fits.iter().filter(|fit| fit.0 < TOUCHING).map(|fit| fit.1).collect() };
-    let flanked = told_flank(&words).filter(|_| !is_plural).and_then(|flank| outermost(places, &there(), flank));
-    if let Some(id) = flanked {
+    let there: Vec<u32> = fits.iter().filter(|fit| fit.0 < TOUCHING).map(|fit| fit.1).collect();
+    if let Some(id) = (!is_plural).then(|| told_by_side(places, &words, &there)).flatten() {
         return Some(vec![id]);
     }
     let mut ids: Vec<u32> = match (is_plural, count) {
@@ -293,8 +291,8 @@ fn placed_inside(
     let others = boxes(places, &around);
     let fits: Vec<(f64, u32)> =
         alike.iter().filter_map(|id| Some((fit(places, *id, relation, &others)?.0, *id))).collect();
-    let there = || -> Vec<u32> { fits.iter().filter(|fit| fit.0 < TOUCHING).map(|fit| fit.1).collect() };
-    let flanked = || told_flank(front).and_then(|flank| outermost(places, &there(), flank));
+    let there: Vec<u32> = fits.iter().filter(|fit| fit.0 < TOUCHING).map(|fit| fit.1).collect();
+    let flanked = || told_by_side(places, front, &there);
     let nearest = || fits.iter().min_by(|a, b| a.0.total_cmp(&b.0)).map(|(_, id)| *id);
     let ids = if is_one {
         vec![flanked().or_else(nearest).or_else(|| matches!(alike[..], [_]).then(|| alike[0]))?]
@@ -303,6 +301,11 @@ fn placed_inside(
         fits.iter().filter(|(misfit, _)| relation != Relation::Near && *misfit < TOUCHING).map(|(_, id)| *id).collect()
     };
     (!ids.is_empty()).then_some((alike, ids, kind_around))
+}
+
+/// The one of the things that stand on another one that the words tell by its side: `the left candle on the sideboard`.
+fn told_by_side(places: Places<'_>, words: &[Word], there: &[u32]) -> Option<u32> {
+    told_flank(words).and_then(|flank| outermost(places, there, flank))
 }
 
 /// Several things of one kind; none where they are of several.

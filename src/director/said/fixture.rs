@@ -19,13 +19,13 @@ pub(crate) fn labelled(labels: &[&str]) -> Vec<NamedObject> {
 }
 
 /// A reading of some steps, without cameras and certainties.
-pub(super) fn direction(steps: Vec<Step>) -> Direction {
+pub(crate) fn direction(steps: Vec<Step>) -> Direction {
     let program = Program { steps, ..Program::default() };
     Direction { program, step_cameras: Vec::new(), certainty: Vec::new(), unmet: Vec::new() }
 }
 
 /// A step that ends on some things, with the bytes of its words.
-pub(super) fn about(movement: Move, ids: &[u32], words: [usize; 2]) -> Step {
+pub(crate) fn about(movement: Move, ids: &[u32], words: [usize; 2]) -> Step {
     let end = Framing { subjects: ids.to_vec(), ..Framing::default() };
     Step { end, words: Some(words), ..Step::of(movement) }
 }

@@ -34,35 +34,23 @@ pub(crate) fn move_told_ends(linked: &Linked, direction: &mut Direction) {
     // What was read as a rest at the beginning is where the film gets to.
     let rests = |movement: Move| movement == Move::Static;
     steps[..told].iter_mut().filter(|step| rests(step.movement)).for_each(|step| step.movement = Move::Follow);
-    steps.rotate_left(told);
-    if direction.certainty.len() == steps.len() {
-        direction.certainty.rotate_left(told);
-    }
-    // The network's cameras belong to another order.
-    direction.step_cameras.clear();
+    direction.move_to_end(told);
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::direction::StepCertainty;
-    use cinesplat_operator::{Program, Step};
+    use crate::said::fixture::{about, direction, linked};
 
+    /// The moves of a rest and a flight, whose words begin at three of the words.
     fn moves(text: &str, firsts: [usize; 3]) -> Vec<Move> {
-        let mut spans: Vec<[usize; 2]> = Vec::new();
-        for word in text.split(' ') {
-            let at = spans.last().map_or(0, |span| span[1] + 1);
-            spans.push([at, at + word.len()]);
-        }
-        let at = |nth: usize| Some([spans[firsts[nth]][0], spans[firsts[nth + 1] - 1][1]]);
-        let steps =
-            vec![Step { words: at(0), ..Step::of(Move::Static) }, Step { words: at(1), ..Step::of(Move::FlyThrough) }];
+        let linked = linked(text);
+        let words = |nth: usize| [linked.spans[firsts[nth]][0], linked.spans[firsts[nth + 1] - 1][1]];
+        let steps = vec![about(Move::Static, &[5], words(0)), about(Move::FlyThrough, &[7], words(1))];
         let certainty =
             steps.iter().map(|step| StepCertainty { probability: 1.0, weakest: ("", 1.0), words: step.words });
-        let certainty = certainty.collect();
-        let program = Program { steps, ..Program::default() };
-        let linked = Linked { tokens_text: text.to_owned(), spans, slots: vec![1, 2], ..Linked::default() };
-        let mut direction = Direction { program, certainty, ..Direction::default() };
+        let mut direction = Direction { certainty: certainty.collect(), ..direction(steps) };
         move_told_ends(&linked, &mut direction);
         direction.program.steps.iter().map(|step| step.movement).collect()
     }

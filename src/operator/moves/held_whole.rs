@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3};
 use super::compose::{is_same_camera, rejoin, turned_by};
 use super::context::StepContext;
 use super::with::is_turn;
-use crate::framing::frame_position;
+use crate::framing::frame_bounds;
 use crate::motion::MotionSegment;
 use crate::pictures::void_frac;
 use crate::program::{Framing, SubjectPart};
@@ -129,12 +129,7 @@ fn points_of(context: &StepContext, ids: &[u32]) -> Option<Vec<DVec3>> {
 /// How far the picture has to move, right and up positive, over the frame, so that points which fit into it are whole. Zero
 /// along an axis on which they do not fit.
 fn shift(context: &StepContext, state: &CameraState, points: &[DVec3]) -> DVec2 {
-    let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);
-    for &point in points {
-        let Some((at, _)) = frame_position(context.world, state, point) else { return DVec2::ZERO };
-        low = low.min(at);
-        high = high.max(at);
-    }
+    let Some(([low, high], _)) = frame_bounds(context.world, state, points) else { return DVec2::ZERO };
     let edge = 0.5 - MARGIN;
     let along = |low: f64, high: f64| {
         if high - low > 2.0 * edge {

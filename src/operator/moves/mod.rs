@@ -10,6 +10,7 @@ mod context;
 mod dolly;
 mod dolly_length;
 mod held_whole;
+mod hold;
 mod lens;
 mod level;
 mod look;
@@ -94,8 +95,8 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
         && !rises_over_subject(context)
         && !backs_over(context);
     match context.step.movement {
-        Move::Static => turns::hold(context),
-        Move::Handheld => turns::handheld(context),
+        Move::Static => hold::hold(context),
+        Move::Handheld => hold::handheld(context),
         Move::PanLeft | Move::PanRight => nearing::pan_and_near(context),
         Move::WhipPan => turns::pan(context),
         Move::TiltUp | Move::TiltDown => turns::tilt(context),
