@@ -4,7 +4,7 @@ use super::console;
 use cinesplat::critic::{Candidate, TERMS, Weights, trade};
 use cinesplat::lens::{EffectPlan, Unmet};
 use cinesplat::objects::ObjectSet;
-use cinesplat::operator::{Amount, Framing, Lens, Look, Speed, Step, SubjectPart};
+use cinesplat::operator::{Amount, Framing, Lens, Level, Limit, Look, Program, Speed, Step, SubjectPart};
 use cinesplat::pipeline::{Critique, Directed};
 use cinesplat::trajectory::ClearanceProof;
 
@@ -19,6 +19,9 @@ pub(super) fn explanation(directed: &Directed, plan: &EffectPlan, objects: &Obje
         let _ = writeln!(text, "  {}. \"{words}\"", number + 1);
         let _ = writeln!(text, "     {}", sentence(&reading.step, objects));
         let _ = writeln!(text, "     {sure:.0} % sure, least sure of {weakest} ({weakest_sure:.0} %)");
+    }
+    for line in of_whole_film(&directed.program, objects) {
+        let _ = writeln!(text, "  {line}");
     }
     text.push_str("\nwanted and got\n");
     for line in &directed.shot.report {
@@ -78,6 +81,31 @@ fn clearance(proof: &ClearanceProof) -> String {
         ),
     };
     format!("  {found}\n  camera radius {radius:.4}, {matter}; {parts} parts of the path checked\n")
+}
+
+/// What a program says of the whole film, one line each.
+pub(super) fn of_whole_film(program: &Program, objects: &ObjectSet) -> Vec<String> {
+    let length = program.duration_secs.map(|secs| format!("length of the film: {secs} s"));
+    let ruled_out = program.forbidden.iter().map(|motion| format!("ruled out: {motion}"));
+    let limits = program.limits.iter().map(|limit| format!("limit: {}", limit_words(limit, objects)));
+    length.into_iter().chain(ruled_out).chain(limits).collect()
+}
+
+fn limit_words(limit: &Limit, objects: &ObjectSet) -> String {
+    let name = |id: u32| names(&[id], objects);
+    let level = |level: Level| match level {
+        Level::Units(units) => format!("{units} units"),
+        Level::Object(id) => name(id),
+    };
+    match *limit {
+        Limit::Above(least) => format!("camera never lower than {}", level(least)),
+        Limit::Below(most) => format!("camera never higher than {}", level(most)),
+        Limit::Clear(None, units) => format!("never nearer than {units} units to anything"),
+        Limit::Clear(Some(id), units) => format!("never nearer than {units} units to {}", name(id)),
+        Limit::Within(id, units) => format!("never farther than {units} units from {}", name(id)),
+        Limit::Speed(units) => format!("never faster than {units} units a second"),
+        Limit::TurnSpeed(degrees) => format!("no turn faster than {degrees} degrees a second"),
+    }
 }
 
 /// A step in words.

@@ -98,9 +98,8 @@ fn text(prompt: &str, reading: &Reading, objects: &ObjectSet) -> String {
     if program.steps.is_empty() {
         text.push_str("nothing that a camera could do\n");
     }
-    let _ = program.duration_secs.map(|secs| writeln!(text, "length of the film: {secs} s"));
-    for motion in &program.forbidden {
-        let _ = writeln!(text, "ruled out: {motion}");
+    for line in explain::of_whole_film(program, objects) {
+        let _ = writeln!(text, "{line}");
     }
     for effect in &reading.effects {
         let forbidden = if effect.is_forbidden { ", forbidden" } else { "" };
@@ -154,6 +153,7 @@ fn document(prompt: &str, reading: &Reading, names: &[NamedObject]) -> Value {
     let missing = reading.linked.missing_groups();
     json!({
         "prompt": prompt,
+        "tokens": reading.linked.tokens_text,
         "program": program_to_notation(program),
         "steps": steps,
         "duration_secs": program.duration_secs,

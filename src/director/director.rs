@@ -180,7 +180,7 @@ impl Director {
         };
         let mut linked = Linked { scenery, acts, ..link_parts(prompt, &mentions, &part)? };
         name_nearest(prompt, &found, &mut linked);
-        Ok(linked)
+        Ok(linked.without_limits()?)
     }
 
     /// Ids of the objects that are inputs of the network: those that the prompt names, then the nearest others.
@@ -309,6 +309,7 @@ fn direction(decoded: &DecodedPrompt, grounding: &Grounding, frame: &SceneFrame)
         steps: steps_of(&keys),
         duration_secs: decoded.film_length.and_then(|idx| grounding.seconds(idx)),
         forbidden: decoded.keys.first().map(codes::forbidden_of).unwrap_or_default(),
+        limits: Vec::new(),
     };
     let step_keys = boundaries_of(&keys);
     let certainty = step_keys

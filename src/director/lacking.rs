@@ -14,7 +14,8 @@ use crate::names::FoundMention;
 /// What stands in rooms and means nothing else to somebody who films.
 const FURNISHINGS: &str = "bed sofa couch settee desk piano fridge refrigerator freezer oven stove cooker sink toaster microwave \
     kettle dishwasher wardrobe bookcase bookshelf dresser sideboard nightstand fireplace television tv telly bathtub toilet cot crib \
-    cradle hammock aquarium cat dog horse motorbike bicycle chandelier armchair gramophone phonograph jukebox harp cello violin accordion typewriter";
+    cradle hammock aquarium cat dog horse motorbike bicycle chandelier armchair gramophone phonograph jukebox harp cello violin accordion typewriter \
+    hallway bathroom bathtub tub staircase";
 /// Those of them that nobody calls anything else that stands in a room.
 const UNMISTAKABLE: &str = "piano fireplace bathtub toilet cot hammock aquarium dog horse motorbike bicycle gramophone phonograph jukebox \
     harp cello violin accordion typewriter";

@@ -14,7 +14,7 @@ const FEWEST_WORDS: usize = 7;
 /// Most words of a title.
 const MOST_TITLE_WORDS: usize = 12;
 /// Words of what is told.
-const TELLS: &str = "was were had used always fought loved bought found got made turned became is 's are 're think like hate love \
+const TELLS: &str = "was were had used always fought loved bought found lost got made turned became is 's are 're think like hate love \
     thinks says said means believe feel feels called named";
 /// Whom a story is about.
 const PERSONS: &str = "my our we i she he they her his their nan gran grandma mum mom dad mother father wife husband daughter son \

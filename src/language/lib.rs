@@ -24,7 +24,11 @@
 //!
 //! ```text
 //! program   = ( step { " / " step } | "none" ) [ "|" { film } ] ;
-//! film      = "total=" number "s" | "no=" MOTION { "+" MOTION } ;
+//! film      = "total=" number "s" | "no=" MOTION { "+" MOTION } | limit ;
+//! limit     = ( "above=" | "below=" ) ( number "u" | object )   (* height of the camera, or of a thing that bounds it *)
+//!           | "clear=" [ object ":" ] number "u"    (* least distance to the object, or to anything *)
+//!           | "within=" object ":" number "u"       (* largest distance to the object *)
+//!           | "speed=" number ( "u" | "deg" ) ;     (* largest speed, a second *)
 //! step      = move { token } ;
 //! move      = MOVE | family ;                       (* push-in | pan *)
 //! token     = direction | framing | pass | look | view | amount | duration | speed
@@ -96,6 +100,7 @@ mod idioms;
 mod inflection;
 mod known_words;
 mod lexicon;
+mod limits;
 mod link;
 mod linked;
 mod list_lines;

@@ -1,5 +1,7 @@
 //! A prompt whose objects and quantities are placeholders.
 
+use cinesplat_operator::Limit;
+
 use super::quantity::Quantity;
 use super::thing_parts::PartPlace;
 use super::timeline::Timeline;
@@ -41,6 +43,8 @@ pub struct Linked {
     /// Bytes of the clauses in which a thing of the scene is told to act (`make the cat jump`), which are no words of the
     /// list.
     pub acts: Vec<[usize; 2]>,
+    /// Limits that the words set for the whole film; these words are none of the list.
+    pub limits: Vec<Limit>,
     /// Names that match no object.
     pub unknown: Vec<UnknownName>,
     /// The parts of a prompt that says part by part what happens when.

@@ -18,7 +18,7 @@ const LOOKS: &str = "grade grading graded palette palettes tone tones hue hues t
     glow light lighting contrast highlights shadows wash haze bokeh accents hour lut look scheme split";
 /// Terms of cameras and robots, of which objects are hardly ever the bearers of the name.
 const TERMS: &str = "axis axes objective constraint constraints sensor gimbal goal goals waypoint waypoints target targets \
-    pose poses floorboard floorboards ceiling skirting exhibit exhibits item items element elements position trajectory centroid standoff heading profile profiles silhouette panel panels";
+    pose poses floorboard floorboards ceiling skirting exhibit exhibits item items element elements position trajectory centroid standoff heading profile profiles silhouette panel panels sticks barrel";
 /// Words beside such a term.
 const BESIDE: &str = "of the a an his her full exact side left right its each every all any none of both this that next last first no optical";
 /// What comes before `plate` where it is a piece of film.
@@ -26,6 +26,34 @@ const PLATES: &str = "reference background clean back empty bg vfx still";
 
 /// Verbs of somebody who corrects himself, before `that`.
 const TAKEN_BACK: &str = "scratch strike forget cancel delete undo scrap ignore make";
+
+/// What people do with pets that are no part of the film: `sorry about the wind, I'm walking the dog`.
+const CHORES: &str = "walking feeding petting washing grooming";
+/// Words behind `is` and `only`, of which what is named is but a decoration.
+const MERE: &str = "only just mere merely";
+
+/// Whether somebody only tells what he does with an animal.
+fn is_chore(words: &[Word], first: usize) -> bool {
+    let is_article = |at: usize| matches!(word_at(words, at), "the" | "my" | "our");
+    let verb = first.checked_sub(1 + usize::from(first > 0 && is_article(first - 1)));
+    let noun = first + usize::from(is_article(first));
+    verb.is_some_and(|verb| is_listed(CHORES, word_at(words, verb)))
+        && is_listed("dog dogs cat cats horse puppy", word_at(words, noun))
+}
+
+/// Whether a mention says that something is only there to look nice: `the rest of it is only decoration`.
+fn is_mere(words: &[Word], end: usize) -> bool {
+    let is_noun = end > 0
+        && is_listed("decoration decorations backdrop background set-dressing dressing", word_at(words, end - 1));
+    is_noun && (1..=3).any(|back| end > back && is_listed(MERE, word_at(words, end - 1 - back)))
+}
+
+/// Whether a mention is the portrait that a film is of something: `portrait of the bust`.
+fn is_portrait(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
+    let is_whole = words[first..end].iter().all(|word| is_listed("a the portrait portraits", &word.text));
+    let is_named = |object: &NamedObject| object.label.to_lowercase().contains("portrait");
+    is_whole && word_at(words, end) == "of" && !objects.iter().any(is_named)
+}
 
 /// Whether a mention names no thing: its words are the colors of a look or a term of the trade.
 pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> bool {
@@ -46,6 +74,9 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
         is_whole_phrase || first > 0 && is_listed(TAKEN_BACK, word_at(&words, first - 1)) && is_phrase();
     is_taken_back
         || is_world
+        || is_chore(&words, first)
+        || is_mere(&words, end)
+        || is_portrait(&words, [first, end], objects)
         || is_color_of_look(&words, [first, end])
         || is_plate(&words, [first, end])
         || is_term(&words[first..end], objects)

@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::framing::Target;
-use super::program::{FramePlace, Motion, Pass, SubjectSide};
+use super::program::{FramePlace, Limit, Motion, Pass, SubjectSide};
 use super::world::{Subject, World};
 use cinesplat_trajectory::{Move, ShotAngle};
 
@@ -101,6 +101,8 @@ pub(super) enum ConstraintKind {
     Also(Move, DVec3),
     /// The segment does not contain a motion. The report lists it once for the whole film.
     Without(Motion),
+    /// The camera keeps a limit, but for speeds. The report lists it once for the whole film.
+    Limited(Limit),
 }
 
 impl Constraint {

@@ -32,6 +32,7 @@ mod framing_cost;
 mod grid;
 mod handles;
 mod inward;
+mod limit;
 mod lookout;
 mod lookouts;
 mod measure;
@@ -65,8 +66,8 @@ mod world;
 pub use clearance::{ClearanceIndex, Nearest, SIGMA_LEVEL};
 pub use detours::{prove_clear, prove_clear_around, restate_clearance};
 pub use program::{
-    Amount, FramePlace, Framing, Lens, Look, MAX_SECOND_MOVES, Motion, Pass, Program, Speed, Step, SubjectPart,
-    SubjectSide, Via,
+    Amount, FramePlace, Framing, Lens, Level, Limit, Look, MAX_SECOND_MOVES, Motion, Pass, Program, Speed, Step,
+    SubjectPart, SubjectSide, Via,
 };
 pub use realize::{Solution, finalists, realize};
 pub use route::{NoRoute, Route, route};

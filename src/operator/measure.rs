@@ -9,6 +9,7 @@ use super::constraint::{
 use super::framing::{
     Target, bearing_of, extent_frac, frame_position, in_frame_frac, off_center, seen_frac, unoccluded_frac,
 };
+use super::limit::kept;
 use super::passage::passage;
 use super::simultaneous::extent;
 use super::steadiness::excess;
@@ -122,6 +123,7 @@ fn composed(world: &World, kind: &ConstraintKind, state: &CameraState, num_point
             let off = foreground_off(world, *id, target, state).unwrap_or(f64::NAN);
             range_violation(off, (FOREGROUND_OFF, 0.5), 0.2)
         }
+        ConstraintKind::Limited(limit) => kept(world, limit, state),
         ConstraintKind::LookAt(point, _, most) => range_violation(off_center(world, state, *point), (0.0, *most), 0.2),
         _ => Measurement { value: f64::NAN, violation: 0.0 },
     }
@@ -153,7 +155,7 @@ fn off_travel_deg(pair: &[CameraState], sign: f64) -> Option<f64> {
 }
 
 /// The violation of a range: 0 inside, else the distance from it over `unit`.
-fn range_violation(value: f64, (low, high): (f64, f64), unit: f64) -> Measurement {
+pub(super) fn range_violation(value: f64, (low, high): (f64, f64), unit: f64) -> Measurement {
     let off = (low - value).max(value - high).max(0.0);
     // A NaN counts as a violation.
     let violation = match (value.is_nan(), off > 0.0) {

@@ -12,6 +12,59 @@ pub struct Program {
     pub duration_secs: Option<f64>,
     /// Motions that the prompt forbids for the whole film, each once, in the order of [`Motion`].
     pub forbidden: Vec<Motion>,
+    /// Limits that the prompt sets for the whole film, in the order in which it states them.
+    pub limits: Vec<Limit>,
+}
+
+/// A limit for the camera of a whole film. Heights are above the bottom of the scene's core box, distances to the nearest
+/// matter of a thing, both in scene units; what is measured may miss them by 0.2 % of the scene size, and a speed by 2 %.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Limit {
+    /// The camera is never lower.
+    Above(Level),
+    /// The camera is never higher.
+    Below(Level),
+    /// The camera is never nearer to the object, or to any matter.
+    Clear(Option<u32>, f64),
+    /// The camera is never farther from the object.
+    Within(u32, f64),
+    /// It never travels faster, scene units a second. The film takes the time that this needs.
+    Speed(f64),
+    /// It never turns faster, degrees a second.
+    TurnSpeed(f64),
+}
+
+/// A height that limits another one.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum Level {
+    /// Scene units above the bottom of the scene's core box.
+    Units(f64),
+    /// That of an object's upper end; of its lower end where it hangs and the camera stays below it.
+    Object(u32),
+}
+
+impl Limit {
+    /// The object that the limit names.
+    pub fn object(&self) -> Option<u32> {
+        match *self {
+            Self::Above(Level::Object(id)) | Self::Below(Level::Object(id)) => Some(id),
+            Self::Clear(id, _) => id,
+            Self::Within(id, _) => Some(id),
+            _ => None,
+        }
+    }
+
+    /// The same limit for another object.
+    #[must_use]
+    pub fn with_object(self, id: u32) -> Self {
+        match self {
+            Self::Above(Level::Object(_)) => Self::Above(Level::Object(id)),
+            Self::Below(Level::Object(_)) => Self::Below(Level::Object(id)),
+            Self::Clear(Some(_), units) => Self::Clear(Some(id), units),
+            Self::Within(_, units) => Self::Within(id, units),
+            other => other,
+        }
+    }
 }
 
 /// A kind of motion that a prompt can forbid.
@@ -72,10 +125,15 @@ impl Program {
                 *ids = map(ids);
             }
         }
+        let mapped = |limit: &Limit| match limit.object() {
+            Some(id) => map(&[id]).into_iter().map(|id| limit.with_object(id)).collect(),
+            None => vec![*limit],
+        };
+        self.limits = self.limits.iter().flat_map(mapped).collect();
         self
     }
 
-    /// Ids of all objects that the steps frame or pass, each once, ascending.
+    /// Ids of all objects that the steps frame or pass, or that a limit names, each once, ascending.
     pub fn object_ids(&self) -> Vec<u32> {
         let passed = |step: &Step| step.via.iter().flat_map(|via| via.objects.clone()).collect::<Vec<u32>>();
         let looked_at = |step: &Step| match &step.look {
@@ -86,7 +144,8 @@ impl Program {
             let ends = [&step.start.subjects[..], &step.end.subjects[..]].concat();
             [&ends[..], &passed(step), &looked_at(step), &step.keep, &step.avoid].concat()
         };
-        let mut ids: Vec<u32> = self.steps.iter().flat_map(named).collect();
+        let limited = self.limits.iter().filter_map(Limit::object);
+        let mut ids: Vec<u32> = self.steps.iter().flat_map(named).chain(limited).collect();
         ids.sort_unstable();
         ids.dedup();
         ids

@@ -11,6 +11,7 @@ use super::forbidden;
 use super::framing::extent_frac;
 use super::handles::{MAX_FREE_FILM_SECS, handles, settle};
 use super::inward::turned_inward;
+use super::limit::{self, has_speeds, haste, within_speeds};
 use super::motion::{MotionSegment, StepLabels, keyframes};
 use super::pacing::pace;
 use super::pictures::worst_void;
@@ -36,6 +37,8 @@ const SAFE_CAPTURED_FRAC: f64 = 0.7;
 /// The same share below which a camera that goes through matter goes through a wall, and one that does not is outside.
 const THROUGH_WALL_FRAC: f64 = 0.5;
 const OUTSIDE_FRAC: f64 = 0.25;
+/// How often a film that is faster than its program allows is slowed down.
+const MOST_SLOWED: usize = 4;
 /// Shortest time into which a stated total duration compresses the segments of free length.
 const MIN_FREE_SECS: f64 = 0.3;
 
@@ -168,10 +171,11 @@ fn solution(
         SolveLevel::Fast | SolveLevel::Full => detours::reroute(world, program, &mut segments),
     };
     pace(world, program, &mut segments);
+    within_speeds(world, program, &mut segments);
     let joints = joints(program, prompt, &segments);
     without_stops(&mut segments, &joints);
     let handles = handles(program, &segments);
-    let wanted_secs = program.duration_secs.or_else(|| too_long(&segments, handles));
+    let wanted_secs = program.duration_secs.or_else(|| too_long(program, &segments, handles));
     let (flow, segments, keys, clearance) = filmed(world, program, (segments, wanted_secs), (joints, handles));
     let path = CameraPath::fine(keys.clone(), world.frame);
     let (mut report, captured) =
@@ -186,6 +190,7 @@ fn solution(
     let is_safe = is_clear && stays && !is_lost && !squeezes();
     report.extend(detours::clearance_lines(world, (program, prompt), (&segments, &flow.spans), &detours, &clearance));
     report.extend(forbidden::lines(world, program, &segments, &keys));
+    report.extend(limit::lines(world, program, &keys));
     report.extend(settings.slant.map(|slant| dutch::report_line(world, &segments, slant)));
     let step_keys = step_keys(&flow.segments, program.steps.len());
     let sightings = sightings(&segments, &flow.spans, flow.secs());
@@ -232,17 +237,25 @@ fn squeezes(world: &World, program: &Program, segment: &MotionSegment) -> bool {
 fn filmed(
     world: &World,
     program: &Program,
-    (segments, wanted_secs): (Vec<MotionSegment>, Option<f64>),
+    (mut natural, wanted_secs): (Vec<MotionSegment>, Option<f64>),
     (mut joints, handles): (Vec<Joint>, [f64; 2]),
 ) -> (Flow, Vec<MotionSegment>, Vec<Keyframe>, ClearanceProof) {
     let labels: Vec<StepLabels> = (0..program.steps.len()).map(|i| labels(program, i)).collect();
+    let mut num_slowed = 0;
     loop {
-        let mut segments = segments.clone();
+        let mut segments = natural.clone();
         fit_duration(&mut segments, &joints, wanted_secs);
         let mut flow = Flow::new(world, &segments, &joints);
         flow.add_handles(handles);
         let mut keys = keyframes(&flow.segments, &labels);
         retime(&mut keys, Some(world.frame));
+        // Blends are faster than what they join.
+        let haste = haste(world, program, &keys);
+        if haste > 1.0 && wanted_secs.is_none() && num_slowed < MOST_SLOWED {
+            natural.iter_mut().filter(|segment| !segment.secs_bind).for_each(|segment| segment.secs *= haste);
+            num_slowed += 1;
+            continue;
+        }
         let proof = detours::proof(world, &keys);
         match proof.failure.and_then(|failure| flow.blend_in(failure.from_secs, failure.to_secs)) {
             Some(blocked) => joints = tightened(&joints, blocked),
@@ -252,10 +265,10 @@ fn filmed(
 }
 
 /// The longest film without a stated length, where the segments would take longer: what is left of it for them.
-fn too_long(segments: &[MotionSegment], handles: [f64; 2]) -> Option<f64> {
+fn too_long(program: &Program, segments: &[MotionSegment], handles: [f64; 2]) -> Option<f64> {
     let secs: f64 = segments.iter().map(|segment| segment.secs).sum();
     let room = MAX_FREE_FILM_SECS - handles.iter().sum::<f64>();
-    let free = segments.iter().all(|segment| !segment.secs_bind);
+    let free = segments.iter().all(|segment| !segment.secs_bind) && !has_speeds(program);
     (free && secs > room).then_some(room)
 }
 

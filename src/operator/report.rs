@@ -33,7 +33,8 @@ pub(super) fn report(
         let states: Vec<CameraState> = (0..NUM_SAMPLES).map(at).collect();
         captured = captured.min(captured_frac(world, &states));
         let words = program.steps.get(segment.step).and_then(|step| step.words);
-        let is_listed = |kind: &ConstraintKind| !matches!(kind, ConstraintKind::Without(_));
+        let is_listed =
+            |kind: &ConstraintKind| !matches!(kind, ConstraintKind::Without(_) | ConstraintKind::Limited(_));
         for constraint in segment.constraints.iter().filter(|constraint| is_listed(&constraint.kind)) {
             let measured = measure(world, constraint, &states, usize::MAX);
             let met = measured.violation <= 0.0;

@@ -70,6 +70,8 @@ pub struct Directed {
     pub critique: Option<Critique>,
     /// The steps of the prompt's program, in order.
     pub steps: Vec<StepReading>,
+    /// The program itself: what it says of the whole film is in no step.
+    pub program: Program,
     /// The effects that the shot calls for, and the calls that lead to none.
     pub effects: Called,
     /// What the prompt asks for and the program does not contain.
@@ -274,7 +276,8 @@ fn film(
     }
     let shot = takes[0].clone();
     let steps = readings(prompt, &direction);
-    Ok(Directed { shot, takes, critique, steps, effects: called, problems, warnings, times })
+    let program = direction.program;
+    Ok(Directed { shot, takes, critique, steps, program, effects: called, problems, warnings, times })
 }
 
 /// A shot of solved keyframes, without a director's model and without effects.

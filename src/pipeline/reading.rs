@@ -125,6 +125,9 @@ pub fn read(
 ) -> Result<Reading, PipelineError> {
     let effects = effect_mentions(prompt, &linked)?;
     let mut direction = interpreter.direct(prompt, &linked, scene)?;
+    if direction.program.limits.is_empty() {
+        direction.program.limits.clone_from(&linked.limits);
+    }
     take_levels(&linked, &mut direction)?;
     let stays = stated::apply(prompt, linked.timeline.as_ref(), &mut direction.program);
     retain_steps(&mut direction, &stays);
@@ -260,6 +263,12 @@ fn missing_aside(linked: &Linked, program: &mut Program) -> Vec<Problem> {
         step.via = step.via.take().filter(|via| !via.objects.is_empty());
         step.look = step.look.take().filter(|look| *look != Look::At(Vec::new()));
     }
+    program.limits.retain(|limit| {
+        let Some(group) = limit.object().and_then(|id| linked.missing(id)) else { return true };
+        let note = format!("no such object; nearest: {}", group.nearest.join(", "));
+        problems.push(Problem { kind: ProblemKind::NotInScene, words: group.name.clone(), span: [0, 0], note });
+        false
+    });
     problems
 }
 

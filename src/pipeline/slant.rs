@@ -23,6 +23,13 @@ pub(super) fn slant_of(mentions: &[EffectMention], program: &Program, prompt: &s
     let mention = mentions.iter().find(|mention| mention.call.name == DUTCH_ANGLE && !mention.is_forbidden)?;
     let [start, end] = mention.span;
     let last = program.steps.len().checked_sub(1)?;
+    // `Dutch angle, roll clockwise by 20 degrees` says itself how far.
+    let rolls = |step: &Step| {
+        matches!(step.movement, Move::RollCw | Move::RollCcw) && matches!(step.amount, Some(Amount::Degrees(_)))
+    };
+    if last == 0 && program.steps.iter().any(rolls) && !levels(prompt) {
+        return None;
+    }
     let around = [prompt.get(..start).unwrap_or_default(), prompt.get(end..).unwrap_or_default()];
     let beside = [around[0].rsplit(['.', ',', ';']).next(), around[1].split(['.', ',', ';']).next()];
     let says = |clause: &str| THROUGHOUT.iter().any(|words| clause.to_lowercase().contains(words));
@@ -31,6 +38,12 @@ pub(super) fn slant_of(mentions: &[EffectMention], program: &Program, prompt: &s
     }
     let step = (0..=last).min_by_key(|at| apart(prompt, mention.span, &program.steps[*at]))?;
     Some(Slant { degrees: DUTCH_DEG, steps: [step, step] })
+}
+
+/// Whether a prompt says that the horizon is level somewhere.
+fn levels(prompt: &str) -> bool {
+    let words = tokenize(prompt);
+    words.iter().any(|word| matches!(word.text.as_str(), "level" | "upright" | "straight" | "straighten" | "back"))
 }
 
 /// Rolls back to level from a dutch angle by just as much as it slants: `start on a dutch angle, roll slowly back to level`.

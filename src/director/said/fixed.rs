@@ -12,7 +12,7 @@ const FIXED: [&str; 8] = ["fixed", "locked", "constant", "unchanged", "static", 
 /// Words between them.
 const BETWEEN: [&str; 6] = ["is", "stays", "remains", "kept", "held", "be"];
 /// Phrases of the same meaning.
-const PHRASES: [&[&str]; 31] = [
+const PHRASES: [&[&str]; 33] = [
     &["stays", "put"],
     &["stay", "put"],
     &["same", "spot"],
@@ -41,6 +41,8 @@ const PHRASES: [&[&str]; 31] = [
     &["no", "travelling"],
     &["no", "traveling"],
     &["stays", "where", "it", "is"],
+    &["without", "moving", "the", "camera"],
+    &["tripod", "untouched"],
     &["no", "translation"],
     &["zero", "translation"],
     &["without", "translation"],
@@ -76,6 +78,28 @@ pub(crate) fn stay_put(linked: &Linked, program: &mut Program) {
     if !program.steps.iter().any(travels) && !program.forbidden.contains(&Motion::Travel) {
         program.forbidden.push(Motion::Travel);
         program.forbidden.sort_unstable();
+    }
+}
+
+/// Words that lock the camera off in a sentence of their own.
+const LOCKED: [&[&str]; 5] =
+    [&["lock", "off"], &["locked", "off"], &["static", "shot"], &["static"], &["no", "movement"]];
+
+/// Rests where a sentence of its own locks the camera off and nothing tells it to move: `Lock-off. The chest in the middle.`
+pub(crate) fn lock_off(linked: &Linked, steps: &mut [Step]) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let ends = |at: usize| matches!(words.get(at), Some(&("." | ":" | ";" | "!")));
+    let begins = |at: usize| at == 0 || ends(at - 1);
+    let is_locked = (0..words.len())
+        .any(|at| begins(at) && LOCKED.iter().any(|locked| words[at..].starts_with(locked) && ends(at + locked.len())));
+    let goes = |at: usize| TRAVELS.iter().any(|verb| is_form(words[at], verb)) || is_form(words[at], "zoom");
+    if let [step] = steps
+        && is_locked
+        && !(0..words.len()).any(goes)
+        && matches!(step.movement, Move::PushIn | Move::PullOut | Move::Follow)
+    {
+        (step.movement, step.amount, step.either_way) = (Move::Static, None, false);
+        step.start = Framing::default();
     }
 }
 

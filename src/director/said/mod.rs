@@ -38,6 +38,7 @@ mod postures;
 mod purposes;
 mod ranges;
 mod rates;
+mod relative;
 mod repeats;
 mod rests;
 mod scanned;
@@ -243,6 +244,19 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     heights::hold_height(linked, direction);
 }
 
+/// Corrects steps by what the words say in relation to what was said before.
+fn take_said_in_relation(linked: &Linked, steps: &mut [Step]) {
+    relative::take_relative_amounts(linked, steps);
+    relative::come_closer_by(linked, steps);
+    relative::move_aside_meanwhile(linked, steps);
+    relative::tilt_from_floor(linked, steps);
+    relative::climb_from_below(linked, steps);
+    relative::travel_above(linked, steps);
+    relative::stay_in_place(linked, steps);
+    relative::turn_from_elsewhere(steps);
+    relative::end_in_corner(linked, steps);
+}
+
 /// Corrects a direction by what the words say plainly of several of its parts.
 pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &mut Direction) {
     moods::drop_stories(linked, direction);
@@ -254,6 +268,9 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     specified::skim_tops(linked, objects, &mut direction.program.steps);
     repeats::drop_restated(direction);
     encores::repeat_all(linked, direction);
+    relative::sway_to_each(linked, direction);
+    relative::join_simultaneous(linked, direction);
+    take_said_in_relation(linked, &mut direction.program.steps);
     open::go_other_way(linked, &mut direction.program.steps);
     directions::rise_or_sink(linked, &mut direction.program.steps);
     lengths::take_total(linked, direction);
@@ -279,4 +296,5 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     whole_film::avoid_throughout(linked, &mut direction.program);
     named_times::take_named_times(linked, &mut direction.program);
     named_times::merge_named_speeds(linked, direction);
+    fixed::lock_off(linked, &mut direction.program.steps);
 }

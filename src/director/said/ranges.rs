@@ -11,7 +11,7 @@ use crate::direction::Direction;
 /// Words between the two values besides `to` and arrows.
 const BETWEEN: [&str; 11] = ["at", "down", "up", "all", "the", "way", "vertical", "\u{B0}", "degrees", ":", "00"];
 /// Words about lenses and about where a subject is seen from, and how far from the values they stand.
-const LENSES: [&str; 4] = ["fov", "vfov", "hfov", "field"];
+const LENSES: [&str; 5] = ["fov", "vfov", "hfov", "field", "lens"];
 const ELEVATIONS: [&str; 2] = ["elevation", "elevated"];
 const REACH: [usize; 2] = [5, 3];
 /// Words between a field of view and its value.
@@ -52,7 +52,9 @@ pub(crate) fn take_ranges(linked: &Linked, steps: &mut [Step]) {
         let byte = linked.spans.get(range.at[0]).map_or(0, |span| span[0]);
         let Some(step) = step_at(steps, byte) else { continue };
         match range.kind {
-            QuantityKind::Degrees if says(&LENSES) => take_lenses(step, range.values.map(Lens::FovDeg), range.values),
+            QuantityKind::Degrees if says(&LENSES) && !says(&ELEVATIONS) => {
+                take_lenses(step, range.values.map(Lens::FovDeg), range.values)
+            }
             QuantityKind::Millimeters => {
                 take_lenses(step, range.values.map(Lens::FocalMm), range.values.map(|mm| -mm));
             }

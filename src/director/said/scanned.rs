@@ -3,7 +3,7 @@
 
 use cinesplat_language::{Linked, is_listed};
 use cinesplat_objects::{Object, only_whole};
-use cinesplat_operator::{Framing, Motion, Pass, Program, Step, SubjectPart};
+use cinesplat_operator::{Amount, Framing, Motion, Pass, Program, Step, SubjectPart};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 use glam::DVec3;
 
@@ -20,6 +20,11 @@ const CLOSE: f64 = 2.0;
 /// Most of the height of a thing that a part is which is its end, and the distance of their edges, of its height.
 const END_FRAC: f64 = 0.65;
 const EDGE_FRAC: f64 = 0.08;
+
+/// Part of the height of a thing from which a way between two of its parts leads up or down.
+const LEADS_FRAC: f64 = 0.15;
+/// Least turn about a lone thing that goes round it, degrees: a camera that turned so far on the spot would see nothing.
+const LEAST_ROUND_DEG: f64 = 45.0;
 
 /// Words that only say to come closer.
 const CLOSER: &str = "closer nearer close and even still in , . then yet much a bit little";
@@ -49,6 +54,7 @@ pub(crate) fn frame_parts(linked: &Linked, (objects, up): (&[Object], DVec3), pr
         scanned.keep_in_frame(linked, step);
         scanned.end_on_whole(linked, step);
         scanned.slide_along(linked, step);
+        scanned.go_round(linked, step);
         scanned.rise_over(linked, step);
         for framing in [&mut step.start, &mut step.end] {
             scanned.drop_parts_of_whole(framing);
@@ -201,10 +207,43 @@ impl Scanned<'_> {
         if !is_way || is_sideways || !own || !self.is_upright() || step.returns {
             return;
         }
-        match (says("down"), says("up")) {
+        match (says("down") || self.leads(step) == Some(false), says("up") || self.leads(step) == Some(true)) {
             (true, false) => (step.movement, step.either_way) = (Move::PedestalDown, false),
             (false, true) => (step.movement, step.either_way) = (Move::PedestalUp, false),
             _ => {}
+        }
+    }
+
+    /// Whether a step leads up (or down) from one part of the thing to another.
+    fn leads(&self, step: &Step) -> Option<bool> {
+        let height = |framing: &Framing| {
+            let [id] = framing.subjects[..] else { return None };
+            let [low, high] = self.heights(self.objects.iter().find(|object| object.id == id)?);
+            Some(match framing.part {
+                SubjectPart::Top => high,
+                SubjectPart::Bottom => low,
+                _ => low.midpoint(high),
+            })
+        };
+        let rise = (height(&step.end)? - height(&step.start)?) / self.height();
+        (rise.abs() > LEADS_FRAC).then_some(rise > 0.0)
+    }
+
+    /// Goes round the thing where its words turn by a part of a circle and name nothing: `quarter turn to the right` of a lone
+    /// thing shows nothing else than its other side.
+    fn go_round(&self, linked: &Linked, step: &mut Step) {
+        let turn = match step.movement {
+            Move::PanRight => Move::OrbitRight,
+            Move::PanLeft => Move::OrbitLeft,
+            _ => return,
+        };
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let looks = words.iter().any(|word| is_listed("pan pans panning look looks yaw head spot place away", word));
+        let own = step.end.subjects.iter().chain(&step.start.subjects).all(|id| *id == self.whole.id);
+        let is_far = matches!(step.amount, Some(Amount::Degrees(degrees)) if degrees >= LEAST_ROUND_DEG);
+        if own && is_far && !looks {
+            step.movement = turn;
+            step.end.subjects = vec![self.whole.id];
         }
     }
 

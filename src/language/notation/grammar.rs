@@ -23,11 +23,27 @@ pub fn program_pattern(ids: &[u32], before_step: &Pattern) -> Pattern {
     let motions = ordered(Motion::VARIANTS.iter().map(|motion| (*motion).into()), "+");
     let length = sequence([Pattern::text("total="), number(), Pattern::text("s")]);
     let ruled_out = after("no=", motions);
-    let film = any_in_order(&[length, ruled_out], " ");
+    let film = any_in_order(&[vec![length, ruled_out], limits(ids)].concat(), " ");
     sequence([
         Pattern::Choice(vec![Pattern::text(NO_STEPS), step.list(" / ", MAX_STEPS)]),
         after(" | ", film).optional(),
     ])
+}
+
+/// The limits of a film over some objects, each kind at most once.
+fn limits(ids: &[u32]) -> Vec<Pattern> {
+    let units = || sequence([positive_number(), Pattern::text("u")]);
+    let object = || Pattern::one_of(ids.iter().map(u32::to_string));
+    let level = || Pattern::Choice(vec![units(), object()]);
+    let of_object = || sequence([object(), Pattern::text(":"), units()]);
+    let turn = sequence([positive_number(), Pattern::text("deg")]);
+    vec![
+        after("above=", level()),
+        after("below=", level()),
+        after("clear=", Pattern::Choice(vec![units(), of_object()])),
+        after("within=", of_object()),
+        after("speed=", Pattern::Choice(vec![units(), turn])),
+    ]
 }
 
 /// The steps over some objects.

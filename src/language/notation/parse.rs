@@ -1,6 +1,6 @@
 use cinesplat_operator::{
-    Amount, FramePlace, Framing, Lens, Look, MAX_SECOND_MOVES, Motion, Pass, Program, Speed, Step, SubjectPart,
-    SubjectSide, Via,
+    Amount, FramePlace, Framing, Lens, Level, Limit, Look, MAX_SECOND_MOVES, Motion, Pass, Program, Speed, Step,
+    SubjectPart, SubjectSide, Via,
 };
 use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
 use strum::VariantArray;
@@ -65,7 +65,8 @@ pub fn program_from_notation(text: &str) -> Result<Program, NotationError> {
         match token.split_once('=') {
             Some(("total", value)) => program.duration_secs = Some(seconds(value)?),
             Some(("no", value)) => program.forbidden = forbidden(value).ok_or_else(unknown)?,
-            _ => return Err(unknown()),
+            Some((name, value)) => program.limits.push(limit(name, value).ok_or_else(unknown)?),
+            None => return Err(unknown()),
         }
     }
     Ok(program)
@@ -322,6 +323,27 @@ fn forbidden(list: &str) -> Option<Vec<Motion>> {
     motions.sort_unstable();
     motions.dedup();
     Some(motions)
+}
+
+/// The limit of a token; objects are their ids.
+fn limit(name: &str, value: &str) -> Option<Limit> {
+    let units = |value: &str| measure(value, "", "u");
+    let of_object = |value: &str| {
+        let (id, distance) = value.split_once(':')?;
+        Some((id.parse::<u32>().ok()?, units(distance)?))
+    };
+    let level = || units(value).map(Level::Units).or_else(|| value.parse().ok().map(Level::Object));
+    match name {
+        "above" => level().map(Limit::Above),
+        "below" => level().map(Limit::Below),
+        "clear" => match of_object(value) {
+            Some((id, distance)) => Some(Limit::Clear(Some(id), distance)),
+            None => units(value).map(|distance| Limit::Clear(None, distance)),
+        },
+        "within" => of_object(value).map(|(id, distance)| Limit::Within(id, distance)),
+        "speed" => units(value).map(Limit::Speed).or_else(|| measure(value, "", "deg").map(Limit::TurnSpeed)),
+        _ => None,
+    }
 }
 
 fn objects(names: &str, resolve: &Resolve) -> Result<Vec<u32>, NotationError> {

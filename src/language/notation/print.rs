@@ -1,4 +1,4 @@
-use cinesplat_operator::{Amount, Framing, Lens, Look, Program, Speed, Step, SubjectPart};
+use cinesplat_operator::{Amount, Framing, Lens, Level, Limit, Look, Program, Speed, Step, SubjectPart};
 
 /// The text of a program without steps.
 pub(super) const NO_STEPS: &str = "none";
@@ -10,8 +10,25 @@ pub fn program_to_notation(program: &Program) -> String {
     let steps = if steps.is_empty() { NO_STEPS.to_owned() } else { steps.join(" / ") };
     let total = program.duration_secs.map(|secs| format!("total={secs}s"));
     let forbidden = (!program.forbidden.is_empty()).then(|| format!("no={}", joined(&program.forbidden)));
-    let film: Vec<String> = total.into_iter().chain(forbidden).collect();
+    let limits = program.limits.iter().map(limit_to_notation);
+    let film: Vec<String> = total.into_iter().chain(forbidden).chain(limits).collect();
     if film.is_empty() { steps } else { format!("{steps} | {}", film.join(" ")) }
+}
+
+fn limit_to_notation(limit: &Limit) -> String {
+    let height = |level: Level| match level {
+        Level::Units(units) => format!("{units}u"),
+        Level::Object(id) => id.to_string(),
+    };
+    match *limit {
+        Limit::Above(level) => format!("above={}", height(level)),
+        Limit::Below(level) => format!("below={}", height(level)),
+        Limit::Clear(None, units) => format!("clear={units}u"),
+        Limit::Clear(Some(id), units) => format!("clear={id}:{units}u"),
+        Limit::Within(id, units) => format!("within={id}:{units}u"),
+        Limit::Speed(units) => format!("speed={units}u"),
+        Limit::TurnSpeed(degrees) => format!("speed={degrees}deg"),
+    }
 }
 
 fn step_to_notation(step: &Step) -> String {

@@ -35,7 +35,8 @@ fn around_at(words: &[Word], i: usize) -> Option<Found> {
             let of = usize::from(word_at(words, i + number.len) == "of");
             let the = of + usize::from(word_at(words, i + number.len + of) == "the");
             let way = i + number.len + the;
-            let is_part = word_at(words, way) == "way" && (is_around(words, way + 1) || orbits_before(words, i));
+            let is_part = word_at(words, way) == "way"
+                && (is_around(words, way + 1) || orbits_before(words, i) || goes_round_before(words, i, way + 1));
             is_part.then(|| degrees(number.len + the + 1, number.value))
         }
     }
@@ -119,6 +120,13 @@ fn orbits_before(words: &[Word], i: usize) -> bool {
     clause_back(words, i, 10)
         .take_while(|word| *word != "and")
         .any(|word| matches!(word, "orbit" | "orbits" | "orbiting" | "circle"))
+}
+
+/// Whether the clause goes round something and no further than the part of the way that ends before word `end`: `go round
+/// the cactus three quarters of the way,`.
+fn goes_round_before(words: &[Word], i: usize, end: usize) -> bool {
+    let ends = matches!(word_at(words, end), "" | "." | "," | ";" | "then" | "and" | "!" | ")");
+    ends && clause_back(words, i, 8).take_while(|word| *word != "and").any(is_circling)
 }
 
 /// Whether the same sentence has a verb of circling within 10 words before word `i`, so that `once` counts turns.

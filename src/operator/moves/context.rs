@@ -9,7 +9,7 @@ use crate::constraint::{ConstraintKind, Scope};
 use crate::framing::{Target, off_center};
 use crate::motion::{MotionSegment, StepParameters};
 use crate::pacing::factor;
-use crate::program::{Framing, Motion, Pass, Program, Step, SubjectSide};
+use crate::program::{Framing, Limit, Motion, Pass, Program, Step, SubjectSide};
 use crate::suggestion::StepCameras;
 use crate::view::{
     CIRCLING_OVERHEAD_DEG, OVERHEAD_DEG, ViewRange, aimed, azimuth_across, broadside_azimuths, height_band_frac, lerp,
@@ -49,6 +49,8 @@ pub(crate) struct StepContext<'a> {
     pub(super) parameters: &'a StepParameters,
     /// Motions that the prompt forbids.
     pub(super) forbidden: &'a [Motion],
+    /// Limits that the prompt sets.
+    pub(super) limits: &'a [Limit],
 }
 
 impl<'a> StepContext<'a> {
@@ -84,6 +86,7 @@ impl<'a> StepContext<'a> {
             azimuths_rad,
             parameters,
             forbidden: &program.forbidden,
+            limits: &program.limits,
         }
     }
 

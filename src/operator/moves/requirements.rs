@@ -8,7 +8,7 @@ use crate::composition::lens_fov_deg;
 use crate::constraint::{Constraint, ConstraintKind, Scope};
 use crate::framing::Target;
 use crate::motion::{Angle, MotionSegment};
-use crate::program::{Framing, Pass, Via};
+use crate::program::{Framing, Limit, Pass, Via};
 use cinesplat_trajectory::ShotAngle;
 
 /// Tolerance of a stated height in the frame, and of a stated distance, over itself.
@@ -42,6 +42,7 @@ pub(super) fn require(context: &StepContext, segments: &mut [MotionSegment]) {
         add(own, Scope::End, framing(context, &step.end, &context.main_target()));
         hide(own, &step.start, Scope::Start);
         hide(own, &step.end, Scope::End);
+        leave_frame(context, own);
         add(own, Scope::All, passages(step.via.as_ref().filter(|_| !skims(context))));
         require_shoulder(context, own);
     }
@@ -114,6 +115,33 @@ fn hide(segment: &mut MotionSegment, framing: &Framing, scope: Scope) {
     }
 }
 
+/// Largest share of a thing in the frame that has left it.
+const LEFT_FRAC: f64 = 0.05;
+
+/// Where a slide or a turn ends without a subject, that has left the frame: the camera does not hide behind something.
+fn leave_frame(context: &StepContext, segment: &mut MotionSegment) {
+    use cinesplat_trajectory::Move;
+    let (step, end) = (context.step, &context.step.end);
+    let passes = matches!(
+        step.movement,
+        Move::TruckLeft
+            | Move::TruckRight
+            | Move::PanLeft
+            | Move::PanRight
+            | Move::TiltUp
+            | Move::TiltDown
+            | Move::PedestalUp
+            | Move::PedestalDown
+    );
+    if end.hidden && passes && step.via.is_none() && !end.subjects.is_empty() {
+        segment.constraints.extend(
+            end.subjects
+                .iter()
+                .map(|id| Constraint { kind: ConstraintKind::NotWhole(vec![*id], LEFT_FRAC), scope: Scope::End }),
+        );
+    }
+}
+
 fn keep_and_avoid(context: &StepContext, segment: &mut MotionSegment) {
     for &id in &context.step.keep {
         add(
@@ -126,4 +154,7 @@ fn keep_and_avoid(context: &StepContext, segment: &mut MotionSegment) {
     add(segment, Scope::All, avoided);
     let forbidden = context.forbidden.iter().map(|&motion| ConstraintKind::Without(motion)).collect();
     add(segment, Scope::All, forbidden);
+    let is_paced = |limit: &&Limit| matches!(limit, Limit::Speed(_) | Limit::TurnSpeed(_));
+    let limits = context.limits.iter().filter(|limit| !is_paced(limit)).map(|limit| ConstraintKind::Limited(*limit));
+    add(segment, Scope::All, limits.collect());
 }

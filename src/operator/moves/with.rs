@@ -84,7 +84,17 @@ fn add_second_move(context: &StepContext, second: Move, segments: &mut [MotionSe
             *state = aimed(context.world, state, target.aim);
         }
     }
+    let zooms = matches!(second, Move::ZoomIn | Move::ZoomOut);
     let violated = |constraint: &Constraint| match constraint.kind {
+        // A lens neither travels nor turns.
+        ConstraintKind::Travel(..)
+        | ConstraintKind::YawChange(_)
+        | ConstraintKind::PitchChange(_)
+        | ConstraintKind::Pitch(_)
+            if zooms =>
+        {
+            false
+        }
         ConstraintKind::DistanceRatio(..) | ConstraintKind::LensRatio(_) => !is_turn(second),
         ConstraintKind::Centered(..) => !keeps_aim,
         ConstraintKind::Travel(..)
