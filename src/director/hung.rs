@@ -18,6 +18,8 @@ const MOST_BEFORE: usize = 5;
 /// What a picture is like on a wall, and no frame of a film is.
 const LOOKS: &str = "big large huge small little framed abstract sunset landscape mountain seascape floral leaf botanical portrait \
     gold golden wooden black white colorful colourful old biggest largest smallest tall long";
+/// Words before it that lead to it.
+const GOALS: &str = "at to towards toward onto";
 /// Words behind it by which it is on a wall.
 const PLACES: &str = "above over beside on by next near between nearest closest";
 
@@ -42,7 +44,10 @@ pub(crate) fn name_pictures(prompt: &str, objects: &[NamedObject], found: &mut V
         let span = [words[article].span[0], words[at].span[1]];
         // What is taken for something that the scene lacks is none of its things.
         let is_known = is_known(found, span);
-        if looks && (is_placed || !words.get(at + 1).is_some_and(Word::is_alphabetic)) && !is_known {
+        // `Look up at the picture above it`.
+        let is_goal = article > 0 && is_listed(GOALS, text(article - 1)) && is_listed("above over", text(at + 1));
+        let is_described = looks && (is_placed || !words.get(at + 1).is_some_and(Word::is_alphabetic));
+        if (is_goal && is_placed || is_described) && !is_known {
             replace_mentions(found, Mention { bytes: span, ids: ids.clone() });
         }
     }
@@ -64,6 +69,7 @@ mod tests {
         assert_eq!(named("tilt up to the big sunset picture above the sofa"), [[1, 3]]);
         assert_eq!(named("end on the framed print, then hold"), [[1, 3]]);
         assert_eq!(named("up to the framed landscape over the headboard"), [[1, 3]]);
+        assert_eq!(named("look up at the picture above it, and stay"), [[1, 3]]);
         for other in ["keep the whole picture on the lamp", "the lamp fills the big picture frame", "a nice picture"] {
             assert_eq!(named(other), Vec::<Vec<u32>>::new(), "{other}");
         }

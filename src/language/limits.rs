@@ -142,14 +142,15 @@ impl Reader<'_> {
     fn denied(&self, at: usize) -> Option<Found> {
         let than = |at: usize| self.after(at + 1, "than to");
         match self.text(at) {
-            "closer" | "nearer" => self.clear(self.distance(than(at))?),
-            "within" | "inside" => self.clear(self.distance(than(at))?),
+            "closer" | "nearer" | "within" | "inside" => Some(self.clear(self.distance(than(at))?)),
             "farther" | "further" | "more" => {
                 let (end, units) = self.distance(than(at))?;
                 let (end, ids) = self.things(self.after(end, "away"))?;
-                self.within(end, units, &ids)
+                withins(end, units, &ids)
             }
-            "above" | "over" | "higher" | "past" => self.below(than(at), true),
+            // `Not over the table but past it` is a way.
+            "over" | "past" => self.below(than(at), false),
+            "above" | "higher" => self.below(than(at), true),
             "below" | "under" | "beneath" | "underneath" | "lower" | "less" | "smaller" => {
                 let from = than(at);
                 // `Stand-off never below half a metre from the jar`.
@@ -158,7 +159,9 @@ impl Reader<'_> {
                     let (end, ids) = self.things(end).filter(|_| is_away)?;
                     Some((end, clears(&ids, units)))
                 });
-                away.or_else(|| self.above(from))
+                let is_way = matches!(self.text(at), "under" | "beneath" | "underneath");
+                let is_height = |found: &Found| !is_way || found.1.iter().all(|limit| limit.object().is_none());
+                away.or_else(|| self.above(from).filter(is_height))
             }
             "faster" | "quicker" | "exceed" | "exceeding" => self.speed(than(at)),
             "anywhere" | "near" | "close" | "too" | "anyplace" => {
@@ -182,7 +185,7 @@ impl Reader<'_> {
             "within" => {
                 let (end, units) = self.distance(at + 1)?;
                 let (end, ids) = self.things(end)?;
-                self.within(end, units, &ids)
+                withins(end, units, &ids)
             }
             "least" | "minimum" | "min" => self.at_least(self.after(at + 1, LINKS_OF_LEAST)),
             "clear" => {
@@ -242,8 +245,9 @@ impl Reader<'_> {
             };
         }
         match (first, next) {
-            ("speed" | "velocity", "limit" | "cap" | "capped" | "limited") => self.speed(self.after(at + 2, LINKS)),
-            ("speed" | "velocity", "<" | "<=" | "≤" | "under" | "below") => self.speed(self.after(at + 2, LINKS)),
+            ("speed" | "velocity", next) if is_listed("limit cap capped limited < <= ≤ under below", next) => {
+                self.speed(self.after(at + 2, LINKS))
+            }
             ("height" | "altitude", "limit" | "cap" | "capped" | "limited") => {
                 self.below(self.after(at + 2, LINKS), true)
             }
@@ -277,13 +281,9 @@ impl Reader<'_> {
     }
 
     /// Nothing, or the things that a distance is from.
-    fn clear(&self, (end, units): (usize, f64)) -> Option<Found> {
+    fn clear(&self, (end, units): (usize, f64)) -> Found {
         let (end, ids) = self.things(self.after(end, "away")).unwrap_or_else(|| (end, self.last_thing(end)));
-        Some((end, clears(&ids, units)))
-    }
-
-    fn within(&self, end: usize, units: f64, ids: &[u32]) -> Option<Found> {
-        (!ids.is_empty()).then(|| (end, ids.iter().map(|id| Limit::Within(*id, units)).collect()))
+        (end, clears(&ids, units))
     }
 
     fn below(&self, at: usize, of_things: bool) -> Option<Found> {
@@ -377,6 +377,11 @@ fn is_of_matter(limit: &Limit) -> bool {
 
 /// Words between `at least` and a length.
 const LINKS_OF_LEAST: &str = "a distance clearance gap of about";
+
+/// The largest distance to some things, where there are any.
+fn withins(end: usize, units: f64, ids: &[u32]) -> Option<Found> {
+    (!ids.is_empty()).then(|| (end, ids.iter().map(|id| Limit::Within(*id, units)).collect()))
+}
 
 /// The least distance to some things, or to any matter.
 fn clears(ids: &[u32], units: f64) -> Vec<Limit> {

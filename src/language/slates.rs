@@ -64,7 +64,7 @@ const WORKS: [&str; 8] = ["film", "movie", "scene", "shot", "advert", "series", 
 /// The Shining? Roll at ..`.
 pub fn without_references(prompt: &str) -> Cow<'_, str> {
     let mut from = 0;
-    let mut asked = Vec::new();
+    let mut asked: Vec<[usize; 2]> = style_of(prompt).into_iter().collect();
     for (at, mark) in prompt.match_indices(['.', '!', '?']) {
         let sentence = &prompt[from..at];
         let low = sentence.trim().to_lowercase();
@@ -80,6 +80,18 @@ pub fn without_references(prompt: &str) -> Cow<'_, str> {
     blanked(prompt, &asked)
 }
 
+/// Words that begin what a film is to be like, before a colon, and most words of it.
+const LIKE: [&str; 3] = ["think", "vibe", "mood"];
+const MOST_STYLE_WORDS: usize = 7;
+
+/// Bytes of the style that a prompt names first: `think survival horror safe room: creep in from the door`.
+fn style_of(prompt: &str) -> Option<[usize; 2]> {
+    let (style, rest) = prompt.split_once(':')?;
+    let words: Vec<String> = style.split_whitespace().map(str::to_lowercase).collect();
+    let is_style = words.len() > 1 && words.len() <= MOST_STYLE_WORDS && LIKE.contains(&words[0].as_str());
+    (is_style && rest.contains(char::is_alphabetic)).then_some([0, style.len() + 1])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -89,6 +101,8 @@ mod tests {
         let read = |prompt| without_references(prompt).trim().to_owned();
         assert_eq!(read("You know the tricycle in The Shining? Roll in."), "Roll in.");
         assert_eq!(read("Remember that shot with the tram? Push in."), "Push in.");
+        assert_eq!(read("think survival horror: creep in from the door"), "creep in from the door");
+        assert_eq!(read("think of the lamp, then push in"), "think of the lamp, then push in");
         assert_eq!(read("You know the lamp in the corner? Push in."), "You know the lamp in the corner? Push in.");
     }
 

@@ -47,9 +47,8 @@ impl Limit {
     /// The object that the limit names.
     pub fn object(&self) -> Option<u32> {
         match *self {
-            Self::Above(Level::Object(id)) | Self::Below(Level::Object(id)) => Some(id),
+            Self::Above(Level::Object(id)) | Self::Below(Level::Object(id)) | Self::Within(id, _) => Some(id),
             Self::Clear(id, _) => id,
-            Self::Within(id, _) => Some(id),
             _ => None,
         }
     }

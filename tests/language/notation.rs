@@ -1,6 +1,7 @@
 use cinesplat::language::{NotationError, program_from_notation, program_to_notation};
 use cinesplat::operator::{
-    Amount, FramePlace, Framing, Lens, Look, Motion, Pass, Program, Speed, Step, SubjectPart, SubjectSide, Via,
+    Amount, FramePlace, Framing, Lens, Level, Limit, Look, Motion, Pass, Program, Speed, Step, SubjectPart,
+    SubjectSide, Via,
 };
 use cinesplat::trajectory::{Easing, Move, ShotAngle, ShotSize};
 
@@ -46,9 +47,30 @@ fn every_token_of_a_step_is_parsed_and_printed() {
         ..Step::of(Move::OrbitLeft)
     };
     let forbidden = vec![Motion::Zoom, Motion::Roll, Motion::Rise];
-    let program = Program { steps: vec![step], duration_secs: Some(8.0), forbidden };
+    let program = Program { steps: vec![step], duration_secs: Some(8.0), forbidden, limits: Vec::new() };
     assert_eq!(program_from_notation(text).unwrap(), program);
     assert_eq!(program_to_notation(&program), text);
+}
+
+#[test]
+fn limits_of_the_whole_film_are_parsed_and_printed() {
+    let text = "push-in end=3 | total=8s above=0.5u below=4 clear=0.3u clear=3:0.5u within=3:2u speed=0.2u speed=20deg";
+    let limits = vec![
+        Limit::Above(Level::Units(0.5)),
+        Limit::Below(Level::Object(4)),
+        Limit::Clear(None, 0.3),
+        Limit::Clear(Some(3), 0.5),
+        Limit::Within(3, 2.0),
+        Limit::Speed(0.2),
+        Limit::TurnSpeed(20.0),
+    ];
+    let program = program_from_notation(text).unwrap();
+    assert_eq!(program.limits, limits);
+    assert_eq!(program_to_notation(&program), text);
+    assert_eq!(program.object_ids(), [3, 4]);
+    for bad in ["above=x", "clear=3", "within=2u", "speed=fast", "over=2u"] {
+        assert!(program_from_notation(&format!("push-in | {bad}")).is_err(), "{bad}");
+    }
 }
 
 #[test]

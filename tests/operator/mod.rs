@@ -8,6 +8,7 @@ mod finalists;
 mod flow;
 mod forbidden;
 mod intents;
+mod limits;
 mod looks;
 mod moves;
 mod overhead;

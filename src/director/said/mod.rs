@@ -255,6 +255,9 @@ fn take_said_in_relation(linked: &Linked, steps: &mut [Step]) {
     relative::stay_in_place(linked, steps);
     relative::turn_from_elsewhere(steps);
     relative::end_in_corner(linked, steps);
+    relative::rise_from_low(steps);
+    relative::begin_at_passed(steps);
+    relative::stop_on_only(linked, steps);
 }
 
 /// Corrects a direction by what the words say plainly of several of its parts.

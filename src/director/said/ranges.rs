@@ -53,7 +53,7 @@ pub(crate) fn take_ranges(linked: &Linked, steps: &mut [Step]) {
         let Some(step) = step_at(steps, byte) else { continue };
         match range.kind {
             QuantityKind::Degrees if says(&LENSES) && !says(&ELEVATIONS) => {
-                take_lenses(step, range.values.map(Lens::FovDeg), range.values)
+                take_lenses(step, range.values.map(Lens::FovDeg), range.values);
             }
             QuantityKind::Millimeters => {
                 take_lenses(step, range.values.map(Lens::FocalMm), range.values.map(|mm| -mm));

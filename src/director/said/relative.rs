@@ -2,7 +2,7 @@
 //! left once more`, `while tracking left`, `simultaneously`.
 
 use cinesplat_language::{Linked, QuantityKind, is_listed};
-use cinesplat_operator::{Amount, Framing, Lens, Look, MAX_SECOND_MOVES, Step, SubjectPart};
+use cinesplat_operator::{Amount, FramePlace, Framing, Lens, Look, MAX_SECOND_MOVES, Pass, Step, SubjectPart, Via};
 use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::directions::is_form;
@@ -174,6 +174,53 @@ pub(crate) fn end_in_corner(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Rises from a low angle where both ends of a rise are said to be low: `a low angle, spiralling upward around it`.
+pub(crate) fn rise_from_low(steps: &mut [Step]) {
+    for step in steps {
+        let rises = |movement: &Move| matches!(movement, Move::CraneUp | Move::PedestalUp);
+        let is_low = matches!(step.start.angle, Some(ShotAngle::Low | ShotAngle::Worm));
+        if is_low && step.start.angle == step.end.angle && (rises(&step.movement) || step.with.iter().any(rises)) {
+            step.end.angle = None;
+        }
+    }
+}
+
+/// Leaves out that a way passes what it begins at: `begin on the pillows, ease across the bed toward the window`.
+pub(crate) fn begin_at_passed(steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement == Move::PushIn) {
+        let starts = &step.start.subjects;
+        let other = step.end.subjects.iter().all(|id| !starts.contains(id)) && !step.end.subjects.is_empty();
+        let passes = |via: &mut Via| {
+            matches!(via.how, Pass::Over | Pass::Past | Pass::Along) && via.objects.iter().all(|id| starts.contains(id))
+        };
+        if other {
+            step.via.take_if(passes);
+        }
+    }
+}
+
+/// Verbs of the end of a way, before `on` what it ends on.
+const STOPS: [&str; 7] = ["stop", "end", "finish", "settle", "land", "halt", "rest"];
+
+/// Ends a slide on the thing that its words stop on, where they name no other: `glide along the shelf of teapots and stop on the
+/// red one`.
+pub(crate) fn stop_on_only(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| matches!(step.movement, Move::TruckLeft | Move::TruckRight)) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let stopped = (0..words.len().saturating_sub(2)).find_map(|at| {
+            let is_stop = STOPS.iter().any(|verb| is_form(words[at], verb));
+            let is_on = matches!(words[at + 1], "on" | "at" | "with");
+            linked.slot_at(words[at + 2]).filter(|_| is_stop && is_on)
+        });
+        let Some(id) = stopped.filter(|_| step.end.subjects.is_empty()) else { continue };
+        let ids = linked.expanded(&[id]);
+        if step.via.as_ref().is_some_and(|via| via.how == Pass::Along && via.objects == ids) {
+            step.via = None;
+            step.end = Framing { subjects: ids, place: Some(FramePlace::AtCenter), ..step.end.clone() };
+        }
+    }
+}
+
 /// Words by which something holds all the time.
 const ALL_ALONG: [&[&str]; 8] = [
     &["all", "along"],
@@ -235,7 +282,7 @@ pub(crate) fn sway_to_each(linked: &Linked, direction: &mut Direction) {
         let swayed: Vec<Step> =
             sides.iter().map(|is_left| Step { movement: moved(*is_left), ..base.clone() }).collect();
         let certainty = direction.certainty.get(nth).cloned();
-        let cameras = direction.step_cameras.get(nth).cloned();
+        let cameras = direction.step_cameras.get(nth).copied();
         for (more, step) in swayed.into_iter().enumerate() {
             if more == 0 {
                 direction.program.steps[nth] = step;
@@ -245,8 +292,8 @@ pub(crate) fn sway_to_each(linked: &Linked, direction: &mut Direction) {
             if let Some(certainty) = &certainty {
                 direction.certainty.insert(nth + more, certainty.clone());
             }
-            if let Some(cameras) = &cameras {
-                direction.step_cameras.insert(nth + more, cameras.clone());
+            if let Some(cameras) = cameras {
+                direction.step_cameras.insert(nth + more, cameras);
             }
         }
     }
@@ -398,10 +445,38 @@ mod tests {
     }
 
     #[test]
+    fn ways_begin_and_end_where_the_words_say() {
+        let low = Framing { angle: Some(ShotAngle::Low), ..Framing::default() };
+        let mut steps =
+            vec![Step { start: low.clone(), end: low, with: vec![Move::CraneUp], ..Step::of(Move::OrbitLeft) }];
+        rise_from_low(&mut steps);
+        assert_eq!((steps[0].start.angle, steps[0].end.angle), (Some(ShotAngle::Low), None));
+        let start = Framing { subjects: vec![7], ..Framing::default() };
+        let via = Some(Via { how: Pass::Over, objects: vec![7] });
+        let mut steps = vec![Step { start, via, ..step(Move::PushIn, "ease to <obj-0>") }];
+        begin_at_passed(&mut steps);
+        assert_eq!(steps[0].via, None);
+        let text = "glide along <obj-0> and stop on <obj-0>";
+        let via = Some(Via { how: Pass::Along, objects: vec![5] });
+        let mut steps = vec![Step { via, words: Some([0, text.len()]), ..Step::of(Move::TruckLeft) }];
+        stop_on_only(&linked(text), &mut steps);
+        assert_eq!((&steps[0].end.subjects[..], &steps[0].via), (&[5][..], &None));
+        let text = "round it , and out high in a corner";
+        let out = Step {
+            end: Framing { angle: Some(ShotAngle::High), ..Framing::default() },
+            words: Some([11, text.len()]),
+            ..Step::of(Move::FlyThrough)
+        };
+        let mut steps = vec![Step::of(Move::OrbitLeft), out];
+        end_in_corner(&linked(text), &mut steps);
+        assert_eq!((steps[1].movement, steps[1].end.whole), (Move::PullOut, true));
+    }
+
+    #[test]
     fn a_place_that_holds_holds_from_the_start() {
         let text = "slide right , <obj-0> on the left third all along";
         let mut steps = vec![step(Move::TruckRight, text)];
-        steps[0].end.place = Some(cinesplat_operator::FramePlace::AtLeft);
+        steps[0].end.place = Some(FramePlace::AtLeft);
         stay_in_place(&linked(text), &mut steps);
         assert_eq!(steps[0].movement, Move::ArcRight);
     }

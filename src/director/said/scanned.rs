@@ -26,6 +26,11 @@ const LEADS_FRAC: f64 = 0.15;
 /// Least turn about a lone thing that goes round it, degrees: a camera that turned so far on the spot would see nothing.
 const LEAST_ROUND_DEG: f64 = 45.0;
 
+/// Share of the height of a thing below which the middle of a part of its lower end is, and above which from the top.
+const LOWER: f64 = 0.4;
+/// Growth of the picture over half a way that comes nearer.
+const NEARER: f64 = 1.2;
+
 /// Words that only say to come closer.
 const CLOSER: &str = "closer nearer close and even still in , . then yet much a bit little";
 /// Words that keep something in the picture, of the picture, of a place in it, and of what was named before.
@@ -281,16 +286,41 @@ impl Scanned<'_> {
             let [id] = framing.subjects[..] else { return false };
             is_open && self.is_own(id) && matches!(framing.part, SubjectPart::Top | SubjectPart::Bottom)
         };
+        let ends = [self.as_end(&step.start), self.as_end(&step.end)];
+        if lifts && !self.is_upright() && is_end(&ends[0]) && is_end(&ends[1]) && ends[0].part != ends[1].part {
+            [step.start, step.end] = ends;
+        }
         if !lifts || !is_end(&step.start) || !is_end(&step.end) || step.start.part == step.end.part {
             return false;
         }
         let share = if self.is_upright() { OF_UPRIGHT } else { OF_COMPACT };
         let share = if is_close { share * 1.2 } else { share };
-        for framing in [&mut step.start, &mut step.end] {
+        let grows = if step.with.contains(&Move::PushIn) { NEARER } else { 1.0 };
+        for (framing, share) in [(&mut step.start, share / grows), (&mut step.end, share * grows)] {
             framing.subjects = vec![self.whole.id];
             (framing.size, framing.height_frac, framing.whole) = (None, Some(share), false);
         }
         true
+    }
+
+    /// The picture of a part that lies at one end of the thing as one of that end: the jaw is the lower end of a skull.
+    fn as_end(&self, framing: &Framing) -> Framing {
+        let part = || {
+            let [id] = framing.subjects[..] else { return None };
+            let object = self.objects.iter().find(|object| object.id == id && object.parent == Some(self.whole.id))?;
+            let [low, high] = self.heights(self.whole);
+            let [own_low, own_high] = self.heights(object);
+            let middle = (own_low.midpoint(own_high) - low) / (high - low).max(1e-9);
+            match middle {
+                middle if middle < LOWER => Some(SubjectPart::Bottom),
+                middle if middle > 1.0 - LOWER => Some(SubjectPart::Top),
+                _ => None,
+            }
+        };
+        match part().filter(|_| framing.part == SubjectPart::Middle) {
+            Some(part) => Framing { part, ..framing.clone() },
+            None => framing.clone(),
+        }
     }
 
     /// Frames a close picture of an end of the upright thing as close as the end needs it.

@@ -30,7 +30,7 @@ pub fn program_pattern(ids: &[u32], before_step: &Pattern) -> Pattern {
     ])
 }
 
-/// The limits of a film over some objects, each kind at most once.
+/// The limits of a film over some objects, in the order of their kinds.
 fn limits(ids: &[u32]) -> Vec<Pattern> {
     let units = || sequence([positive_number(), Pattern::text("u")]);
     let object = || Pattern::one_of(ids.iter().map(u32::to_string));
@@ -40,9 +40,10 @@ fn limits(ids: &[u32]) -> Vec<Pattern> {
     vec![
         after("above=", level()),
         after("below=", level()),
-        after("clear=", Pattern::Choice(vec![units(), of_object()])),
-        after("within=", of_object()),
-        after("speed=", Pattern::Choice(vec![units(), turn])),
+        after("clear=", Pattern::Choice(vec![units(), of_object()])).list(" ", MAX_LISTED),
+        after("within=", of_object()).list(" ", MAX_LISTED),
+        after("speed=", units()),
+        after("speed=", turn),
     ]
 }
 
