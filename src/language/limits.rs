@@ -151,7 +151,7 @@ impl Reader<'_> {
             // `Not over the table but past it` is a way.
             "over" | "past" => self.below(than(at), false),
             "above" | "higher" => self.below(than(at), true),
-            "below" | "under" | "beneath" | "underneath" | "lower" | "less" | "smaller" => {
+            "below" | "under" | "beneath" | "underneath" | "lower" | "less" => {
                 let from = than(at);
                 // `Stand-off never below half a metre from the jar`.
                 let away = self.distance(from).and_then(|(end, units)| {
@@ -159,15 +159,16 @@ impl Reader<'_> {
                     let (end, ids) = self.things(end).filter(|_| is_away)?;
                     Some((end, clears(&ids, units)))
                 });
+                // `Not under the table but past it` is a way, `no less than a metre` how far.
                 let is_way = matches!(self.text(at), "under" | "beneath" | "underneath");
-                let is_height = |found: &Found| !is_way || found.1.iter().all(|limit| limit.object().is_none());
-                away.or_else(|| self.above(from).filter(is_height))
+                let is_height = |(_, limits): &Found| !is_way || limits.iter().all(is_of_matter);
+                away.or_else(|| self.above(from).filter(is_height).filter(|_| self.text(at) != "less"))
             }
             "faster" | "quicker" | "exceed" | "exceeding" => self.speed(than(at)),
-            "anywhere" | "near" | "close" | "too" | "anyplace" => {
-                let near = self.after(at, "anywhere anyplace too near close to");
-                let says = (at..near).any(|word| matches!(self.text(word), "near" | "close"));
-                let (end, ids) = self.things(near).or_else(|| self.things(near - 1)).filter(|_| says)?;
+            "anywhere" | "near" => {
+                let near = self.after(at, "anywhere near");
+                let says = (at..near).any(|word| self.text(word) == "near");
+                let (end, ids) = self.things(near).filter(|_| says)?;
                 (!ids.is_empty()).then(|| (end, clears(&ids, BERTH_METERS)))
             }
             _ => None,
@@ -181,7 +182,10 @@ impl Reader<'_> {
                 let from = self.after(at + 1, "than");
                 self.below(from, false).or_else(|| self.speed(from))
             }
-            "above" | "higher" => self.above(self.after(at + 1, "than")),
+            // `Hold above the table` is where the camera is for a while.
+            "above" | "higher" => {
+                self.above(self.after(at + 1, "than")).filter(|(_, limits)| limits.iter().all(is_of_matter))
+            }
             "within" => {
                 let (end, units) = self.distance(at + 1)?;
                 let (end, ids) = self.things(end)?;
@@ -340,7 +344,7 @@ impl Reader<'_> {
 
     /// `To the vase`, `from anything`: the word behind it, and the things, none for any matter.
     fn things(&self, at: usize) -> Option<(usize, Vec<u32>)> {
-        let from = self.after(at, "to from of off away and");
+        let from = self.after(at, "to from of off away");
         let word = self.after(from, ARTICLES);
         if from > at && is_listed(ANYTHING, self.text(word)) {
             return Some((word + 1, Vec::new()));
@@ -459,7 +463,9 @@ mod tests {
             "rise <qty-0> above <obj-0>",
             "keep <qty-0> away from <obj-0>",
             "no zoom , go over <obj-0>",
-            "hold above <obj-0> at most",
+            "hold above <obj-0> for a while",
+            "go to <obj-0> but not too close to it",
+            "rise no less than <qty-0>",
             "not over <obj-0> but past it",
         ] {
             assert_eq!(limits(text), [], "{text}");
