@@ -25,6 +25,7 @@ mod distinct;
 mod dutch;
 mod ends;
 mod facets;
+mod film_limits;
 mod flow;
 mod forbidden;
 mod framing;

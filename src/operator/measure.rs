@@ -9,7 +9,7 @@ use super::constraint::{
 use super::framing::{
     Target, bearing_of, extent_frac, frame_position, in_frame_frac, off_center, seen_frac, unoccluded_frac,
 };
-use super::limit::kept;
+use super::limit::measured;
 use super::passage::passage;
 use super::simultaneous::extent;
 use super::steadiness::excess;
@@ -27,6 +27,8 @@ const SEARCH_UNSEEN: f64 = 0.4;
 const THIRD_BAND: (f64, f64) = (0.13, 0.2);
 /// Least share of an object's points in the frame where it is the foreground.
 const FOREGROUND_FRAC: f64 = 0.15;
+/// How far off a limit is a clear violation, over the scene size.
+const LIMIT_UNIT_FRAC: f64 = 0.08;
 /// Share of the frames on which a subject must be visible: a post may hide it briefly, a wall may not.
 const VISIBLE_FRAMES_FRAC: f64 = 0.85;
 
@@ -123,7 +125,10 @@ fn composed(world: &World, kind: &ConstraintKind, state: &CameraState, num_point
             let off = foreground_off(world, *id, target, state).unwrap_or(f64::NAN);
             range_violation(off, (FOREGROUND_OFF, 0.5), 0.2)
         }
-        ConstraintKind::Limited(limit) => kept(world, limit, state),
+        ConstraintKind::Limited(limit) => {
+            let (value, band) = measured(world, limit, state);
+            range_violation(value, band, LIMIT_UNIT_FRAC * world.bounds.size())
+        }
         ConstraintKind::LookAt(point, _, most) => range_violation(off_center(world, state, *point), (0.0, *most), 0.2),
         _ => Measurement { value: f64::NAN, violation: 0.0 },
     }
@@ -155,7 +160,7 @@ fn off_travel_deg(pair: &[CameraState], sign: f64) -> Option<f64> {
 }
 
 /// The violation of a range: 0 inside, else the distance from it over `unit`.
-pub(super) fn range_violation(value: f64, (low, high): (f64, f64), unit: f64) -> Measurement {
+fn range_violation(value: f64, (low, high): (f64, f64), unit: f64) -> Measurement {
     let off = (low - value).max(value - high).max(0.0);
     // A NaN counts as a violation.
     let violation = match (value.is_nan(), off > 0.0) {

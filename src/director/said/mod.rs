@@ -26,6 +26,7 @@ mod heights;
 mod lengths;
 mod levels;
 mod looks;
+mod meanwhile;
 mod moods;
 mod named_times;
 mod narrated;
@@ -248,9 +249,10 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
 fn take_said_in_relation(linked: &Linked, steps: &mut [Step]) {
     relative::take_relative_amounts(linked, steps);
     relative::come_closer_by(linked, steps);
-    relative::move_aside_meanwhile(linked, steps);
+    meanwhile::move_aside_meanwhile(linked, steps);
     relative::tilt_from_floor(linked, steps);
     relative::climb_from_below(linked, steps);
+    relative::pan_clockwise(linked, steps);
     relative::travel_above(linked, steps);
     relative::stay_in_place(linked, steps);
     relative::turn_from_elsewhere(steps);
@@ -271,8 +273,8 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     specified::skim_tops(linked, objects, &mut direction.program.steps);
     repeats::drop_restated(direction);
     encores::repeat_all(linked, direction);
-    relative::sway_to_each(linked, direction);
-    relative::join_simultaneous(linked, direction);
+    meanwhile::sway_to_each(linked, direction);
+    meanwhile::join_simultaneous(linked, direction);
     take_said_in_relation(linked, &mut direction.program.steps);
     open::go_other_way(linked, &mut direction.program.steps);
     directions::rise_or_sink(linked, &mut direction.program.steps);

@@ -1,12 +1,11 @@
-//! What is said in relation to what was said before: `back half that distance`, `closer, half a metre or so`, `sway left, right, and
-//! left once more`, `while tracking left`, `simultaneously`.
+//! What is said in relation to what was said before, or to where the camera is: `back half that distance`, `closer, half a metre or
+//! so`, `tilt from the floor up`, `stop on the red one`.
 
 use cinesplat_language::{Linked, QuantityKind, is_listed};
-use cinesplat_operator::{Amount, FramePlace, Framing, Lens, Look, MAX_SECOND_MOVES, Pass, Step, SubjectPart, Via};
+use cinesplat_operator::{Amount, FramePlace, Framing, Pass, Step, SubjectPart, Via};
 use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::directions::is_form;
-use crate::direction::Direction;
 
 /// Shares of an extent in words, and what they are of.
 const SHARES: [(&[&str], f64); 8] = [
@@ -34,6 +33,13 @@ pub(crate) fn take_relative_amounts(linked: &Linked, steps: &mut [Step]) {
             });
             // The factor that is made of it is none of a picture.
             step.end.distance = None;
+        }
+        // A way back by half the distance that is left would come nearer.
+        if let (Move::PullOut, Some(Amount::Factor(share)), Some(Amount::Units(units))) =
+            (step.movement, step.amount, extent)
+            && share < 1.0
+        {
+            step.amount = Some(Amount::Units(share * units));
         }
         if let Some(amount @ (Amount::Degrees(_) | Amount::Units(_))) = step.amount {
             extent = Some(amount);
@@ -87,32 +93,6 @@ pub(crate) fn turn_from_elsewhere(steps: &mut [Step]) {
     }
 }
 
-/// Verbs of a way to a side, and words before it that make it one at the same time.
-const SIDEWAYS: [&str; 9] = ["track", "truck", "slide", "drift", "crab", "move", "travel", "glide", "shift"];
-const MEANWHILE: &str = "while whilst as and";
-
-/// Moves to a side at the same time where the words say so: `sink while tracking left`.
-pub(crate) fn move_aside_meanwhile(linked: &Linked, steps: &mut [Step]) {
-    for step in steps {
-        let goes_aside = |movement: &Move| matches!(movement, Move::TruckLeft | Move::TruckRight);
-        let lifts = matches!(
-            step.movement,
-            Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown | Move::PushIn | Move::PullOut
-        );
-        if !lifts || step.with.iter().any(goes_aside) || step.with.len() >= MAX_SECOND_MOVES {
-            continue;
-        }
-        let words = linked.texts_in(step.words.unwrap_or_default());
-        let side = (1..words.len()).find_map(|at| {
-            let gerund = words[at].ends_with("ing") && SIDEWAYS.iter().any(|verb| is_form(words[at], verb));
-            let joins = words[at.saturating_sub(3)..at].iter().any(|word| is_listed(MEANWHILE, word));
-            let behind = words[at + 1..].iter().take(3).find(|word| matches!(**word, "left" | "right"))?;
-            (gerund && joins).then_some(*behind == "left")
-        });
-        step.with.extend(side.map(|is_left| if is_left { Move::TruckLeft } else { Move::TruckRight }));
-    }
-}
-
 /// Begins a tilt from the floor to a thing at its lower end.
 pub(crate) fn tilt_from_floor(linked: &Linked, steps: &mut [Step]) {
     for step in steps.iter_mut().filter(|step| step.movement == Move::TiltUp && step.start == Framing::default()) {
@@ -127,6 +107,22 @@ pub(crate) fn tilt_from_floor(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Pans to the right where the words turn clockwise, as seen from above: `yaw by 120° clockwise`.
+pub(crate) fn pan_clockwise(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| matches!(step.movement, Move::PanLeft | Move::PanRight)) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let says = |list: &str| words.iter().any(|word| is_listed(list, word));
+        if says("left right counter anti") {
+            continue;
+        }
+        if says("clockwise cw") {
+            (step.movement, step.either_way) = (Move::PanRight, false);
+        } else if says("counterclockwise anticlockwise ccw acw") {
+            (step.movement, step.either_way) = (Move::PanLeft, false);
+        }
+    }
+}
+
 /// Words of a high camera.
 const HIGH: &str = "high above over overhead down top aerial bird birds birdseye sky air";
 
@@ -134,7 +130,7 @@ const HIGH: &str = "high above over overhead down top aerial bird birds birdseye
 pub(crate) fn climb_from_below(linked: &Linked, steps: &mut [Step]) {
     for step in steps.iter_mut().filter(|step| matches!(step.movement, Move::CraneUp | Move::PedestalUp)) {
         let words = linked.texts_in(step.words.unwrap_or_default());
-        let is_drone = words.iter().any(|word| word.starts_with("drone"));
+        let is_drone = linked.tokens_text.split(' ').any(|word| word.starts_with("drone"));
         if is_drone && step.start.angle == Some(ShotAngle::High) && !words.iter().any(|word| is_listed(HIGH, word)) {
             step.start.angle = None;
         }
@@ -251,111 +247,9 @@ pub(crate) fn stay_in_place(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
-/// Words of further ways to sides: `to the right`, `and left once more`.
-const ONCE_MORE: &str = "to the and then . , again once more back over it a little bit slowly gently";
-
-/// Goes to each side that the words list behind one verb: `we sway to the left ... to the right ... and to the left once more`.
-pub(crate) fn sway_to_each(linked: &Linked, direction: &mut Direction) {
-    let words: Vec<(&str, [usize; 2])> = linked.words_in([0, usize::MAX]).collect();
-    for nth in (0..direction.program.steps.len()).rev() {
-        let step = &direction.program.steps[nth];
-        if !matches!(step.movement, Move::TruckLeft | Move::TruckRight | Move::PanLeft | Move::PanRight) {
-            continue;
-        }
-        let Some([from, _]) = step.words else { continue };
-        let next = direction.program.steps.get(nth + 1).and_then(|step| step.words).map_or(usize::MAX, |next| next[0]);
-        let own: Vec<(&str, [usize; 2])> =
-            words.iter().filter(|(_, span)| (from..next).contains(&span[0])).copied().collect();
-        let sides = sides_in(&own);
-        if sides.len() < 3 {
-            continue;
-        }
-        let moved = |is_left: bool| match step.movement {
-            Move::TruckLeft | Move::TruckRight => [Move::TruckRight, Move::TruckLeft][usize::from(is_left)],
-            _ => [Move::PanRight, Move::PanLeft][usize::from(is_left)],
-        };
-        let mut base = Step { either_way: false, ..step.clone() };
-        if matches!(step.movement, Move::TruckLeft | Move::TruckRight) && !step.end.subjects.is_empty() {
-            // What all of them would end on is what they look at.
-            base.look = Some(Look::At(std::mem::take(&mut base.end).subjects));
-        }
-        let swayed: Vec<Step> =
-            sides.iter().map(|is_left| Step { movement: moved(*is_left), ..base.clone() }).collect();
-        let certainty = direction.certainty.get(nth).cloned();
-        let cameras = direction.step_cameras.get(nth).copied();
-        for (more, step) in swayed.into_iter().enumerate() {
-            if more == 0 {
-                direction.program.steps[nth] = step;
-                continue;
-            }
-            direction.program.steps.insert(nth + more, step);
-            if let Some(certainty) = &certainty {
-                direction.certainty.insert(nth + more, certainty.clone());
-            }
-            if let Some(cameras) = cameras {
-                direction.step_cameras.insert(nth + more, cameras);
-            }
-        }
-    }
-}
-
-/// The sides that words list one after another, whether each is the left one: nothing else stands between them.
-fn sides_in(words: &[(&str, [usize; 2])]) -> Vec<bool> {
-    let mut sides = Vec::new();
-    let first = words.iter().position(|(word, _)| matches!(*word, "left" | "right"));
-    for (word, _) in words.iter().skip(first.unwrap_or(words.len())) {
-        match *word {
-            "left" => sides.push(true),
-            "right" => sides.push(false),
-            word if is_listed(ONCE_MORE, word) || !word.contains(char::is_alphanumeric) => {}
-            _ => break,
-        }
-    }
-    let alternates = sides.windows(2).all(|two| two[0] != two[1]);
-    if alternates { sides } else { Vec::new() }
-}
-
-/// Words that begin what happens at the same time as the item of a list before it.
-const AT_ONCE: &str = "simultaneously concurrently meanwhile";
-
-/// Joins a step that happens at the same time as the one before it: `2) yaw left. 3) simultaneously FOV to 60°`.
-pub(crate) fn join_simultaneous(linked: &Linked, direction: &mut Direction) {
-    for nth in (1..direction.program.steps.len()).rev() {
-        let [before, step] = &direction.program.steps[nth - 1..=nth] else { continue };
-        let words = linked.texts_in(step.words.unwrap_or_default());
-        let is_at_once = words.iter().take(4).any(|word| is_listed(AT_ONCE, word));
-        let is_plain = step.with.is_empty() && step.via.is_none() && step.start == Framing::default();
-        let fits = before.movement != Move::Static
-            && step.movement != Move::Static
-            && before.movement != step.movement
-            && before.with.len() < MAX_SECOND_MOVES;
-        let same =
-            step.end.subjects.is_empty() || before.end.subjects.is_empty() || before.end.subjects == step.end.subjects;
-        if !(is_at_once && is_plain && fits && same) {
-            continue;
-        }
-        let shown = direction.program.steps[..nth].iter().rev().find_map(|step| step.end.lens.or(step.start.lens));
-        let mut with = before.with.clone();
-        with.push(match (step.movement, shown, step.end.lens) {
-            (Move::ZoomIn | Move::ZoomOut, Some(Lens::FovDeg(first)), Some(Lens::FovDeg(last))) => {
-                if last > first {
-                    Move::ZoomOut
-                } else {
-                    Move::ZoomIn
-                }
-            }
-            (movement, ..) => movement,
-        });
-        let lens = before.end.lens.or(step.end.lens);
-        let end = Framing { lens, size: before.end.size.or(step.end.size), ..before.end.clone() };
-        let one = Step { with, end, words: before.joint_words(step), ..before.clone() };
-        direction.join_steps(nth, one);
-    }
-}
-
 #[cfg(test)]
 mod tests {
-    use super::super::fixture::{about, direction, linked};
+    use super::super::fixture::{about, linked};
     use super::*;
     use cinesplat_language::Quantity;
 
@@ -392,40 +286,6 @@ mod tests {
     }
 
     #[test]
-    fn a_way_to_a_side_joins_a_descent() {
-        let with = |text: &str| {
-            let mut steps = vec![step(Move::CraneDown, text)];
-            move_aside_meanwhile(&linked(text), &mut steps);
-            steps.remove(0).with
-        };
-        assert_eq!(with("sink by <obj-0> while tracking left"), [Move::TruckLeft]);
-        assert_eq!(with("sink to <obj-0> on the left"), []);
-    }
-
-    #[test]
-    fn sides_in_a_list_are_ways() {
-        let text = "sway to the left . . . to the right . . . and to the left once more before <obj-0>";
-        let mut swayed = direction(vec![step(Move::TruckLeft, text)]);
-        sway_to_each(&linked(text), &mut swayed);
-        let moves: Vec<Move> = swayed.program.steps.iter().map(|step| step.movement).collect();
-        assert_eq!(moves, [Move::TruckLeft, Move::TruckRight, Move::TruckLeft]);
-        let text = "slide to the left past the right side of <obj-0>";
-        let mut slid = direction(vec![step(Move::TruckLeft, text)]);
-        sway_to_each(&linked(text), &mut slid);
-        assert_eq!(slid.program.steps.len(), 1);
-    }
-
-    #[test]
-    fn what_happens_at_once_is_one_step() {
-        let text = "yaw left . simultaneously zoom out";
-        let pan = Step { words: Some([0, 8]), ..Step::of(Move::PanLeft) };
-        let zoom = Step { words: Some([11, text.len()]), ..Step::of(Move::ZoomOut) };
-        let mut joined = direction(vec![pan, zoom]);
-        join_simultaneous(&linked(text), &mut joined);
-        assert_eq!((joined.program.steps.len(), &joined.program.steps[0].with[..]), (1, &[Move::ZoomOut][..]));
-    }
-
-    #[test]
     fn tilts_climbs_and_waypoints_begin_and_end_as_said() {
         let text = "tilt from the floor to <obj-0>";
         let mut steps = vec![step(Move::TiltUp, text)];
@@ -436,6 +296,10 @@ mod tests {
         steps[0].start.angle = Some(ShotAngle::High);
         climb_from_below(&linked(text), &mut steps);
         assert_eq!(steps[0].start.angle, None);
+        let text = "yaw 120 degrees clockwise from <obj-0>";
+        let mut steps = vec![step(Move::PanLeft, text)];
+        pan_clockwise(&linked(text), &mut steps);
+        assert_eq!(steps[0].movement, Move::PanRight);
         let text = "at <obj-1> . above <obj-0> , looking down";
         let mut down = Step { words: Some([13, text.len()]), ..step(Move::TiltDown, text) };
         down.end.angle = Some(ShotAngle::Overhead);
