@@ -36,6 +36,7 @@ fn idioms_become_words_of_the_trade() {
         ("no [palm] anywhere", "never show <obj-0>"),
         ("circle [it], keep to the left of the [table]", "circle <obj-0> past <obj-1>"),
         ("mind [the stool], don't bump into it", ","),
+        ("push in, you're not to climb", "push in , no climbing"),
         ("the last 2 seconds decelerate to a stop", "the last <qty-0> decelerate to a stop"),
         ("push in, the last 2 seconds decelerate to a stop", "push in , easing out"),
     ] {

@@ -39,6 +39,8 @@ pub(super) fn alternatives(text: &str, lists: &Lists) -> Result<Vec<Vec<Piece>>,
                 let group = open.pop().filter(|_| !open.is_empty()).ok_or("`)` without `(`")?;
                 push(&mut open, Piece::OneOf(Arc::new(group)))?;
             }
+            // The end of a contraction stands alone behind what it may follow: `(he | you) ('s | 're)`.
+            _ if token.starts_with('\'') => push(&mut open, Piece::Word(token.to_owned()))?,
             _ if is_plain(token) => {
                 // The words of a prompt are split in the same way: `don't` is `don` and `'t`.
                 for word in tokenize(token) {
@@ -65,7 +67,7 @@ fn push(open: &mut [Vec<Vec<Piece>>], piece: Piece) -> Result<(), String> {
 
 /// Whether a token is a word and nothing that stands for others.
 fn is_plain(token: &str) -> bool {
-    token.starts_with(|c: char| c.is_alphanumeric() || c == '\'')
+    token.starts_with(char::is_alphanumeric)
 }
 
 fn piece(token: &str, lists: &Lists) -> Result<Piece, String> {
