@@ -88,7 +88,11 @@ impl Linked {
             return Ok(self);
         }
         limits.sort_by_key(rank);
-        let rest = self.without(&bytes, None);
+        // `Stay a metre from the vase and go round it`.
+        let is_cut = |span: &[usize; 2]| bytes.iter().any(|[from, to]| (*from..*to).contains(&span[0]));
+        let mut cut = words.iter().rev().filter(|(_, span)| is_cut(span));
+        let named = cut.find_map(|(word, _)| self.slot_at(word));
+        let rest = self.without(&bytes, named);
         Ok(Self { limits, acts: self.acts, scenery: self.scenery, warnings: self.warnings, ..rest })
     }
 }
@@ -424,6 +428,8 @@ mod tests {
         let linked = read("push in on <obj-0> , never closer than <qty-0> .");
         assert_eq!((linked.tokens_text.as_str(), &linked.limits[..]), ("push in on <obj-0> .", &[near][..]));
         assert_eq!(limits("orbit <obj-0> but do not come within <qty-0> of <obj-1>"), [Limit::Clear(Some(7), 0.5)]);
+        let linked = read("stay at least <qty-0> from <obj-0> and go round it");
+        assert_eq!((linked.tokens_text.as_str(), &linked.limits[..]), ("and go round <obj-0>", &[near][..]));
         let any = Limit::Clear(None, 0.5);
         assert_eq!(limits("circle <obj-0> , keep at least <qty-0> away from everything"), [any]);
         assert_eq!(limits("circle <obj-0> , minimum clearance <qty-0>"), [any]);
