@@ -2,14 +2,13 @@
 //!
 //! Enters: a linked prompt. Leaves: its limits, and the words without them: to the network they are amounts of moves.
 
-use std::collections::BTreeMap;
-
 use cinesplat_operator::{Level, Limit};
 
 use super::error::LanguageError;
 use super::heights::SpokenHeight;
 use super::linked::Linked;
 use super::quantity::QuantityKind;
+use super::rates::Rate;
 use super::tokenizer::is_listed;
 
 /// Words that deny what follows, and words between them and what is denied.
@@ -31,6 +30,9 @@ const HEIGHTS: &str = "height altitude level h alt";
 const SPEEDS: &str = "speed velocity rate pace turn rotation angular linear pan yaw";
 /// Words between what is bounded and its value.
 const LINKS: &str = "of is = : - the to be at <= >= < > ≤ ≥ than from";
+/// Words between `at least` and a length, and between a length and what it is from.
+const LINKS_OF_LEAST: &str = "a distance clearance gap of about";
+const AWAY: &str = "of away back off clear distance clearance";
 /// Any matter.
 const ANYTHING: &str = "anything everything objects object obstacles obstacle furniture walls wall surfaces surface things geometry \
     something stuff";
@@ -70,10 +72,10 @@ impl Linked {
             linked: &self,
             texts: words.iter().map(|(word, _)| *word).collect(),
             spans: words.iter().map(|(_, span)| *span).collect(),
-            rates: self.rates().into_iter().map(|rate| (rate.bytes, (rate.kind, rate.per_sec))).collect(),
+            rates: self.rates(),
             heights,
         };
-        let (mut limits, mut bytes, mut at) = (Vec::new(), Vec::new(), 0);
+        let (mut limits, mut bytes, mut named, mut at) = (Vec::new(), Vec::new(), None, 0);
         while at < words.len() {
             let Some((end, found)) = reader.limit_at(at) else {
                 at += 1;
@@ -81,6 +83,8 @@ impl Linked {
             };
             let from = (0..at).rev().take_while(|before| is_listed(JOINS, reader.text(*before))).last().unwrap_or(at);
             bytes.push([words[from].1[0], words[end - 1].1[1]]);
+            // `Stay a metre from the vase and go round it`.
+            named = words[at..end].iter().rev().find_map(|(word, _)| self.slot_at(word)).or(named);
             limits.extend(found);
             at = end;
         }
@@ -88,10 +92,6 @@ impl Linked {
             return Ok(self);
         }
         limits.sort_by_key(rank);
-        // `Stay a metre from the vase and go round it`.
-        let is_cut = |span: &[usize; 2]| bytes.iter().any(|[from, to]| (*from..*to).contains(&span[0]));
-        let mut cut = words.iter().rev().filter(|(_, span)| is_cut(span));
-        let named = cut.find_map(|(word, _)| self.slot_at(word));
         let rest = self.without(&bytes, named);
         Ok(Self { limits, acts: self.acts, scenery: self.scenery, warnings: self.warnings, ..rest })
     }
@@ -114,7 +114,7 @@ struct Reader<'a> {
     linked: &'a Linked,
     texts: Vec<&'a str>,
     spans: Vec<[usize; 2]>,
-    rates: BTreeMap<[usize; 2], (QuantityKind, f64)>,
+    rates: Vec<Rate>,
     heights: Vec<([usize; 2], SpokenHeight)>,
 }
 
@@ -153,8 +153,8 @@ impl Reader<'_> {
                 withins(end, units, &ids)
             }
             // `Not over the table but past it` is a way.
-            "over" | "past" => self.below(than(at), false),
-            "above" | "higher" => self.below(than(at), true),
+            "over" | "past" => self.below(than(at)).filter(is_of_matter),
+            "above" | "higher" => self.below(than(at)),
             "below" | "under" | "beneath" | "underneath" | "lower" | "less" => {
                 let from = than(at);
                 // `Stand-off never below half a metre from the jar`.
@@ -165,8 +165,8 @@ impl Reader<'_> {
                 });
                 // `Not under the table but past it` is a way, `no less than a metre` how far.
                 let is_way = matches!(self.text(at), "under" | "beneath" | "underneath");
-                let is_height = |(_, limits): &Found| !is_way || limits.iter().all(is_of_matter);
-                away.or_else(|| self.above(from).filter(is_height).filter(|_| self.text(at) != "less"))
+                let is_height = |found: &Found| self.text(at) != "less" && (!is_way || is_of_matter(found));
+                away.or_else(|| self.above(from).filter(is_height))
             }
             "faster" | "quicker" | "exceed" | "exceeding" => self.speed(than(at)),
             "anywhere" | "near" => {
@@ -184,12 +184,10 @@ impl Reader<'_> {
         match self.text(at) {
             "below" | "under" | "beneath" | "lower" => {
                 let from = self.after(at + 1, "than");
-                self.below(from, false).or_else(|| self.speed(from))
+                self.below(from).filter(is_of_matter).or_else(|| self.speed(from))
             }
             // `Hold above the table` is where the camera is for a while.
-            "above" | "higher" => {
-                self.above(self.after(at + 1, "than")).filter(|(_, limits)| limits.iter().all(is_of_matter))
-            }
+            "above" | "higher" => self.above(self.after(at + 1, "than")).filter(is_of_matter),
             "within" => {
                 let (end, units) = self.distance(at + 1)?;
                 let (end, ids) = self.things(end)?;
@@ -209,7 +207,7 @@ impl Reader<'_> {
             // `Keep 50 cm away from everything`; from a thing it is how far the camera is.
             _ => {
                 let (end, units) = self.distance(at)?;
-                let (end, ids) = self.things(self.after(end, "of away back off clear distance clearance"))?;
+                let (end, ids) = self.things(self.after(end, AWAY))?;
                 ids.is_empty().then(|| (end, clears(&ids, units)))
             }
         }
@@ -221,7 +219,7 @@ impl Reader<'_> {
         if let Some(end) = self.floor(end) {
             return Some((end, vec![Limit::Above(Level::Units(units))]));
         }
-        let (end, ids) = self.things(self.after(end, "of away back off clear distance clearance"))?;
+        let (end, ids) = self.things(self.after(end, AWAY))?;
         Some((end, clears(&ids, units)))
     }
 
@@ -241,13 +239,13 @@ impl Reader<'_> {
             }
             if is_listed(HEIGHTS, name) {
                 let behind = self.after(behind, LINKS);
-                return if is_least { self.above(behind) } else { self.below(behind, true) };
+                return if is_least { self.above(behind) } else { self.below(behind) };
             }
             if !is_least && is_listed(SPEEDS, name) {
                 return self.speed(self.after(behind, LINKS));
             }
             return match (begins, is_least) {
-                (true, true) => self.at_least(at + 1).filter(|(_, limits)| limits.iter().all(is_of_matter)),
+                (true, true) => self.at_least(at + 1).filter(is_of_matter),
                 (true, false) => self.speed(at + 1),
                 (false, _) => None,
             };
@@ -256,9 +254,7 @@ impl Reader<'_> {
             ("speed" | "velocity", next) if is_listed("limit cap capped limited < <= ≤ under below", next) => {
                 self.speed(self.after(at + 2, LINKS))
             }
-            ("height" | "altitude", "limit" | "cap" | "capped" | "limited") => {
-                self.below(self.after(at + 2, LINKS), true)
-            }
+            ("height" | "altitude", "limit" | "cap" | "capped" | "limited") => self.below(self.after(at + 2, LINKS)),
             ("height" | "altitude", "between") => {
                 let (end, limits) = self.between(at + 2)?;
                 Some((self.floor(end).unwrap_or(end), limits))
@@ -294,10 +290,9 @@ impl Reader<'_> {
         (end, clears(&ids, units))
     }
 
-    fn below(&self, at: usize, of_things: bool) -> Option<Found> {
+    fn below(&self, at: usize) -> Option<Found> {
         let (end, level) = self.level(at)?;
-        let fits = of_things || matches!(level, Level::Units(_));
-        fits.then(|| (end, vec![Limit::Below(level)]))
+        Some((end, vec![Limit::Below(level)]))
     }
 
     fn above(&self, at: usize) -> Option<Found> {
@@ -307,10 +302,11 @@ impl Reader<'_> {
 
     fn speed(&self, at: usize) -> Option<Found> {
         let at = self.after(at, "a an about roughly speed of");
-        let (bytes, (kind, per_sec)) = self.rates.range([self.spans.get(at)?[0], 0]..).next()?;
+        let begin = self.spans.get(at)?[0];
+        let Rate { kind, per_sec, bytes } = *self.rates.iter().find(|rate| rate.bytes[0] == begin)?;
         let end = (at..self.texts.len()).find(|word| self.spans[*word][0] >= bytes[1]).unwrap_or(self.texts.len());
-        let limit = if *kind == QuantityKind::Degrees { Limit::TurnSpeed(*per_sec) } else { Limit::Speed(*per_sec) };
-        (bytes[0] == self.spans[at][0]).then(|| (end, vec![limit]))
+        let limit = if kind == QuantityKind::Degrees { Limit::TurnSpeed(per_sec) } else { Limit::Speed(per_sec) };
+        Some((end, vec![limit]))
     }
 
     /// A height: a length, one that people name, or a thing's.
@@ -378,13 +374,10 @@ impl Reader<'_> {
     }
 }
 
-/// Whether a limit is about the floor or any matter: `at least 50 cm from the vase` is how far away somebody stands.
-fn is_of_matter(limit: &Limit) -> bool {
-    limit.object().is_none()
+/// Whether limits are about heights or any matter: `at least 50 cm from the vase` is how far away somebody stands.
+fn is_of_matter((_, limits): &Found) -> bool {
+    limits.iter().all(|limit| limit.object().is_none())
 }
-
-/// Words between `at least` and a length.
-const LINKS_OF_LEAST: &str = "a distance clearance gap of about";
 
 /// The largest distance to some things, where there are any.
 fn withins(end: usize, units: f64, ids: &[u32]) -> Option<Found> {

@@ -7,8 +7,9 @@ use super::cost::{path_of, sampled};
 use super::limit::measured;
 use super::motion::MotionSegment;
 use super::program::{Level, Limit, Program};
+use super::takes::{Sample, takes};
 use super::world::World;
-use cinesplat_trajectory::{CameraPath, CameraState, Keyframe, ReportLine};
+use cinesplat_trajectory::{Keyframe, ReportLine};
 
 /// What a limit may be missed by: heights and distances over the scene size, speeds over themselves.
 const TOLERANCE_FRAC: f64 = 0.002;
@@ -24,25 +25,22 @@ pub(super) fn lines(world: &World, program: &Program, keys: &[Keyframe]) -> Vec<
     if program.limits.is_empty() {
         return Vec::new();
     }
-    let path = CameraPath::fine(keys.to_vec(), world.frame);
-    program.limits.iter().map(|limit| line(world, limit, &path, keys)).collect()
+    let takes = takes(world, keys, SAMPLES_PER_INTERVAL);
+    program.limits.iter().map(|limit| line(world, limit, &takes)).collect()
 }
 
-fn line(world: &World, limit: &Limit, path: &CameraPath, keys: &[Keyframe]) -> ReportLine {
+fn line(world: &World, limit: &Limit, takes: &[Vec<Sample>]) -> ReportLine {
     let clause = limit_words(world, limit);
     if let Limit::Speed(most) | Limit::TurnSpeed(most) = *limit {
-        let fastest = fastest(keys, path);
-        let (got, unit) = match limit {
-            Limit::Speed(_) => (fastest[0], "scene units"),
-            _ => (fastest[1], "degrees"),
-        };
+        let [speed, turn] = fastest(takes);
+        let (got, unit) = if matches!(limit, Limit::Speed(_)) { (speed, "scene units") } else { (turn, "degrees") };
         let met = got <= most * (1.0 + SPEED_TOLERANCE);
         let note = if met { String::new() } else { "the length that the words state leaves no time for it".to_owned() };
         return ReportLine { clause, wanted: format!("at most {most:.2} {unit} a second"), got, met, note };
     }
     let tolerance = TOLERANCE_FRAC * world.bounds.size();
-    let states = times(keys).into_iter().map(|time| path.sample(time));
-    let worst = states.map(|state| measured(world, limit, &state)).max_by(|(a, band), (b, _)| {
+    let values = takes.iter().flatten().map(|(_, state)| measured(world, limit, state));
+    let worst = values.max_by(|(a, band), (b, _)| {
         let off = |value: f64| (band.0 - value).max(value - band.1);
         off(*a).total_cmp(&off(*b))
     });
@@ -75,37 +73,17 @@ fn limit_words(world: &World, limit: &Limit) -> String {
     }
 }
 
-/// Times of a film at which limits are measured.
-fn times(keys: &[Keyframe]) -> Vec<f64> {
-    let between = |pair: &[Keyframe]| {
-        let (from, to) = (pair[0].time_secs, pair[1].time_secs);
-        let num = if pair[1].cut { 1 } else { SAMPLES_PER_INTERVAL };
-        (0..num).map(|i| from + (to - from) * i as f64 / num as f64).collect::<Vec<_>>()
-    };
-    let last = keys.last().map(|key| key.time_secs);
-    keys.windows(2).flat_map(between).chain(last).collect()
-}
-
 /// Largest speed of a film, scene units a second, and its fastest turn, degrees a second. Cuts do not count.
-fn fastest(keys: &[Keyframe], path: &CameraPath) -> [f64; 2] {
+fn fastest(takes: &[Vec<Sample>]) -> [f64; 2] {
     let mut fastest = [0.0_f64; 2];
-    for pair in keys.windows(2).filter(|pair| !pair[1].cut) {
-        let (from, to) = (pair[0].time_secs, pair[1].time_secs);
-        let at = |i: usize| path.sample(from + (to - from) * i as f64 / SAMPLES_PER_INTERVAL as f64);
-        let states: Vec<CameraState> = (0..=SAMPLES_PER_INTERVAL).map(at).collect();
-        let speeds = speeds(&states, (to - from) / SAMPLES_PER_INTERVAL as f64);
-        fastest = [fastest[0].max(speeds[0]), fastest[1].max(speeds[1])];
-    }
-    fastest
-}
-
-/// Largest speed and fastest turn between samples that are `secs` apart.
-fn speeds(states: &[CameraState], secs: f64) -> [f64; 2] {
-    let mut fastest = [0.0_f64; 2];
-    for pair in states.windows(2).filter(|_| secs > 0.0) {
-        let way = pair[0].pose.position.distance(pair[1].pose.position);
-        let turn = pair[0].pose.rotation.angle_between(pair[1].pose.rotation).to_degrees();
-        fastest = [fastest[0].max(way / secs), fastest[1].max(turn / secs)];
+    for pair in takes.iter().flat_map(|take| take.windows(2)) {
+        let [(from, first), (to, last)] = [pair[0], pair[1]];
+        let secs = to - from;
+        if secs > 0.0 {
+            let way = first.pose.position.distance(last.pose.position);
+            let turn = first.pose.rotation.angle_between(last.pose.rotation).to_degrees();
+            fastest = [fastest[0].max(way / secs), fastest[1].max(turn / secs)];
+        }
     }
     fastest
 }
@@ -115,13 +93,12 @@ pub(super) fn haste(world: &World, program: &Program, keys: &[Keyframe]) -> f64 
     if !has_speeds(program) {
         return 1.0;
     }
-    let fastest = fastest(keys, &CameraPath::fine(keys.to_vec(), world.frame));
-    over(program, fastest)
+    over(program, fastest(&takes(world, keys, SAMPLES_PER_INTERVAL)))
 }
 
 /// Whether a program limits speeds.
 pub(super) fn has_speeds(program: &Program) -> bool {
-    program.limits.iter().any(|limit| matches!(limit, Limit::Speed(_) | Limit::TurnSpeed(_)))
+    program.limits.iter().any(Limit::is_speed)
 }
 
 /// The largest of the speeds over their limits, at least 1.
@@ -141,7 +118,9 @@ pub(super) fn within_speeds(world: &World, program: &Program, segments: &mut [Mo
     }
     for segment in segments.iter_mut().filter(|segment| !segment.secs_bind) {
         let states = sampled(&path_of(world, segment), segment, NUM_SAMPLES);
-        let over = over(program, speeds(&states, segment.secs / (NUM_SAMPLES - 1) as f64));
+        let secs = segment.secs / (NUM_SAMPLES - 1) as f64;
+        let take = states.into_iter().enumerate().map(|(i, state)| (secs * i as f64, state)).collect();
+        let over = over(program, fastest(&[take]));
         segment.secs *= if over > 1.0 { SLACK * over } else { 1.0 };
     }
 }

@@ -3,8 +3,9 @@
 use super::motion::MotionSegment;
 use super::program::{Motion, Program, Step};
 use super::steadiness::excess;
+use super::takes::{Sample, takes};
 use super::world::World;
-use cinesplat_trajectory::{CameraPath, CameraState, Keyframe, Move, ReportLine};
+use cinesplat_trajectory::{CameraState, Keyframe, Move, ReportLine};
 
 /// Samples per interval between two keyframes.
 const SAMPLES_PER_INTERVAL: usize = 12;
@@ -20,7 +21,8 @@ pub(super) fn lines(
     if program.forbidden.is_empty() {
         return Vec::new();
     }
-    let takes = takes(world, keys);
+    let cameras = |take: Vec<Sample>| take.into_iter().map(|(_, state)| state).collect();
+    let takes: Vec<_> = takes(world, keys, SAMPLES_PER_INTERVAL).into_iter().map(cameras).collect();
     program.forbidden.iter().map(|&motion| line(world, (program, motion), segments, (keys, &takes))).collect()
 }
 
@@ -78,23 +80,4 @@ fn note(world: &World, program: &Program, motion: Motion, segments: &[MotionSegm
     let mut names: Vec<&str> = segments.iter().filter(contains).map(name).collect();
     names.dedup();
     format!("the film contains it in: {}", names.join(", "))
-}
-
-/// Samples of the stretches of the film between cuts.
-fn takes(world: &World, keys: &[Keyframe]) -> Vec<Vec<CameraState>> {
-    let path = CameraPath::fine(keys.to_vec(), world.frame);
-    let mut takes: Vec<Vec<CameraState>> = Vec::new();
-    for (i, key) in keys.iter().enumerate() {
-        if i == 0 || key.cut {
-            takes.push(Vec::new());
-        }
-        let next = keys.get(i + 1).filter(|next| !next.cut);
-        let end = next.map_or(key.time_secs, |next| next.time_secs);
-        let at = |j: usize| key.time_secs + (end - key.time_secs) * j as f64 / SAMPLES_PER_INTERVAL as f64;
-        let count = if next.is_some() { SAMPLES_PER_INTERVAL } else { 1 };
-        if let Some(take) = takes.last_mut() {
-            take.extend((0..count).map(|j| path.sample(at(j))));
-        }
-    }
-    takes
 }

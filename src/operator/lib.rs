@@ -57,6 +57,7 @@ mod simultaneous;
 mod steadiness;
 mod stops;
 mod suggestion;
+mod takes;
 mod underside;
 mod vertigo;
 mod view;

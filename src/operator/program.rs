@@ -12,7 +12,7 @@ pub struct Program {
     pub duration_secs: Option<f64>,
     /// Motions that the prompt forbids for the whole film, each once, in the order of [`Motion`].
     pub forbidden: Vec<Motion>,
-    /// Limits that the prompt sets for the whole film, in the order in which it states them.
+    /// Limits that the prompt sets for the whole film, in the order of [`Limit`]'s kinds.
     pub limits: Vec<Limit>,
 }
 
@@ -51,6 +51,11 @@ impl Limit {
             Self::Clear(id, _) => id,
             _ => None,
         }
+    }
+
+    /// Whether it limits a speed, which no single camera has.
+    pub fn is_speed(&self) -> bool {
+        matches!(self, Self::Speed(_) | Self::TurnSpeed(_))
     }
 
     /// The same limit for another object.

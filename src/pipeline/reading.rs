@@ -1,7 +1,7 @@
 //! What a prompt is understood as: its program, how sure that is, and what it asks for in vain.
 
 use cinesplat_director::{Direction, SceneContext, StepCertainty, take_levels};
-use cinesplat_language::{EffectMention, Linked, effect_mentions, forbidding_words, tokenize};
+use cinesplat_language::{EffectMention, Group, Linked, effect_mentions, forbidding_words, tokenize};
 use cinesplat_operator::{Framing, Look, Motion, Pass, Program, Step};
 use cinesplat_trajectory::{Move, ReportLine};
 
@@ -247,8 +247,7 @@ fn missing_aside(linked: &Linked, program: &mut Program) -> Vec<Problem> {
         let mut keep_known = |ids: &mut Vec<u32>| {
             ids.retain(|id| {
                 let Some(group) = linked.missing(*id) else { return true };
-                let note = format!("no such object; nearest: {}", group.nearest.join(", "));
-                problems.push(Problem { kind: ProblemKind::NotInScene, words: group.name.clone(), span, note });
+                problems.push(not_in_scene(group, span));
                 false
             });
         };
@@ -265,11 +264,16 @@ fn missing_aside(linked: &Linked, program: &mut Program) -> Vec<Problem> {
     }
     program.limits.retain(|limit| {
         let Some(group) = limit.object().and_then(|id| linked.missing(id)) else { return true };
-        let note = format!("no such object; nearest: {}", group.nearest.join(", "));
-        problems.push(Problem { kind: ProblemKind::NotInScene, words: group.name.clone(), span: [0, 0], note });
+        problems.push(not_in_scene(group, [0, 0]));
         false
     });
     problems
+}
+
+/// Something that words name and the scene lacks.
+fn not_in_scene(group: &Group, span: [usize; 2]) -> Problem {
+    let note = format!("no such object; nearest: {}", group.nearest.join(", "));
+    Problem { kind: ProblemKind::NotInScene, words: group.name.clone(), span, note }
 }
 
 /// Steps that contradict themselves or the motions that the film forbids. Of two opposite moves at once the first

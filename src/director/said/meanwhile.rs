@@ -2,7 +2,7 @@
 //! 60°`, `sway left, right, and left once more`.
 
 use cinesplat_language::{Linked, is_listed};
-use cinesplat_operator::{Framing, Lens, Look, MAX_SECOND_MOVES, Step};
+use cinesplat_operator::{Framing, Lens, Look, MAX_SECOND_MOVES, Program, Step};
 use cinesplat_trajectory::Move;
 
 use super::directions::is_form;
@@ -53,32 +53,23 @@ pub(crate) fn sway_to_each(linked: &Linked, direction: &mut Direction) {
         if sides.len() < 3 {
             continue;
         }
-        let moved = |is_left: bool| match step.movement {
-            Move::TruckLeft | Move::TruckRight => [Move::TruckRight, Move::TruckLeft][usize::from(is_left)],
-            _ => [Move::PanRight, Move::PanLeft][usize::from(is_left)],
-        };
+        let travels = matches!(step.movement, Move::TruckLeft | Move::TruckRight);
+        let [left, right] = if travels { [Move::TruckLeft, Move::TruckRight] } else { [Move::PanLeft, Move::PanRight] };
         let mut base = Step { either_way: false, ..step.clone() };
-        if matches!(step.movement, Move::TruckLeft | Move::TruckRight) && !step.end.subjects.is_empty() {
+        if travels && !step.end.subjects.is_empty() {
             // What all of them would end on is what they look at.
             base.look = Some(Look::At(std::mem::take(&mut base.end).subjects));
         }
-        let swayed: Vec<Step> =
-            sides.iter().map(|is_left| Step { movement: moved(*is_left), ..base.clone() }).collect();
-        let certainty = direction.certainty.get(nth).cloned();
-        let cameras = direction.step_cameras.get(nth).copied();
-        for (more, step) in swayed.into_iter().enumerate() {
-            if more == 0 {
-                direction.program.steps[nth] = step;
-                continue;
-            }
-            direction.program.steps.insert(nth + more, step);
-            if let Some(certainty) = &certainty {
-                direction.certainty.insert(nth + more, certainty.clone());
-            }
-            if let Some(cameras) = cameras {
-                direction.step_cameras.insert(nth + more, cameras);
-            }
-        }
+        let swayed = |is_left: &bool| Step { movement: if *is_left { left } else { right }, ..base.clone() };
+        direction.program.steps[nth] = swayed(&sides[0]);
+        let more = sides.len() - 1;
+        let others = Direction {
+            program: Program { steps: sides[1..].iter().map(swayed).collect(), ..Program::default() },
+            step_cameras: direction.step_cameras.get(nth).map_or_else(Vec::new, |cameras| vec![*cameras; more]),
+            certainty: direction.certainty.get(nth).map_or_else(Vec::new, |certainty| vec![certainty.clone(); more]),
+            ..Direction::default()
+        };
+        direction.insert_all(nth + 1, others);
     }
 }
 

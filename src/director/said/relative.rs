@@ -1,7 +1,7 @@
 //! What is said in relation to what was said before, or to where the camera is: `back half that distance`, `closer, half a metre or
 //! so`, `tilt from the floor up`, `stop on the red one`.
 
-use cinesplat_language::{Linked, QuantityKind, is_listed};
+use cinesplat_language::{Linked, Quantity, QuantityKind, is_listed};
 use cinesplat_operator::{Amount, FramePlace, Framing, Pass, Step, SubjectPart, Via};
 use cinesplat_trajectory::{Move, ShotAngle};
 
@@ -51,13 +51,11 @@ pub(crate) fn take_relative_amounts(linked: &Linked, steps: &mut [Step]) {
 fn share_in(linked: &Linked, words: &[&str]) -> Option<f64> {
     (0..words.len()).find_map(|at| {
         let of_words = SHARES.iter().find(|(share, _)| words[at..].starts_with(share));
-        let factor = linked.quantity_at(words[at]).filter(|quantity| quantity.kind == QuantityKind::Factor);
-        let percent = linked.quantity_at(words[at]).filter(|quantity| quantity.kind == QuantityKind::Percent);
-        let (share, end) = match (of_words, factor, percent) {
-            (Some((share, value)), ..) => (*value, at + share.len()),
-            (None, Some(factor), _) => (factor.value, at + 1),
-            (None, None, Some(percent)) => (percent.value / 100.0, at + 1),
-            (None, None, None) => return None,
+        let (share, end) = match (of_words, linked.quantity_at(words[at])) {
+            (Some((share, value)), _) => (*value, at + share.len()),
+            (None, Some(Quantity { kind: QuantityKind::Factor, value })) => (value, at + 1),
+            (None, Some(Quantity { kind: QuantityKind::Percent, value })) => (value / 100.0, at + 1),
+            (None, _) => return None,
         };
         let end = end + usize::from(words.get(end) == Some(&"of"));
         let is_that = words.get(end) == Some(&"that") && words.get(end + 1).is_none_or(|word| is_listed(EXTENTS, word));
@@ -157,16 +155,14 @@ pub(crate) fn travel_above(linked: &Linked, steps: &mut [Step]) {
 
 /// Ends on the whole room where a flight ends high up in a corner of it: `and out high in a corner`.
 pub(crate) fn end_in_corner(linked: &Linked, steps: &mut [Step]) {
-    let last = steps.len().saturating_sub(1);
-    for (nth, step) in steps.iter_mut().enumerate().skip(1) {
-        let words = linked.texts_in(step.words.unwrap_or_default());
-        let is_high = step.end.angle == Some(ShotAngle::High) || words.contains(&"high");
-        let is_open = step.end.subjects.is_empty() && step.start == Framing::default() && step.via.is_none();
-        let flies = matches!(step.movement, Move::FlyThrough | Move::Follow | Move::CraneUp | Move::PedestalUp);
-        if nth == last && is_high && is_open && flies && words.contains(&"corner") {
-            step.movement = Move::PullOut;
-            step.end = Framing { angle: Some(ShotAngle::High), whole: true, ..Framing::default() };
-        }
+    let [_, .., step] = steps else { return };
+    let words = linked.texts_in(step.words.unwrap_or_default());
+    let is_high = step.end.angle == Some(ShotAngle::High) || words.contains(&"high");
+    let is_open = step.end.subjects.is_empty() && step.start == Framing::default() && step.via.is_none();
+    let flies = matches!(step.movement, Move::FlyThrough | Move::Follow | Move::CraneUp | Move::PedestalUp);
+    if is_high && is_open && flies && words.contains(&"corner") {
+        step.movement = Move::PullOut;
+        step.end = Framing { angle: Some(ShotAngle::High), whole: true, ..Framing::default() };
     }
 }
 
@@ -251,7 +247,6 @@ pub(crate) fn stay_in_place(linked: &Linked, steps: &mut [Step]) {
 mod tests {
     use super::super::fixture::{about, linked};
     use super::*;
-    use cinesplat_language::Quantity;
 
     fn measured(text: &str, kind: QuantityKind, value: f64) -> Linked {
         Linked { quantities: vec![Quantity { kind, value }; 2], ..linked(text) }

@@ -212,7 +212,8 @@ impl Scanned<'_> {
         if !is_way || is_sideways || !own || !self.is_upright() || step.returns {
             return;
         }
-        match (says("down") || self.leads(step) == Some(false), says("up") || self.leads(step) == Some(true)) {
+        let leads_up = self.leads_up(step);
+        match (says("down") || leads_up == Some(false), says("up") || leads_up == Some(true)) {
             (true, false) => (step.movement, step.either_way) = (Move::PedestalDown, false),
             (false, true) => (step.movement, step.either_way) = (Move::PedestalUp, false),
             _ => {}
@@ -220,7 +221,7 @@ impl Scanned<'_> {
     }
 
     /// Whether a step leads up (or down) from one part of the thing to another.
-    fn leads(&self, step: &Step) -> Option<bool> {
+    fn leads_up(&self, step: &Step) -> Option<bool> {
         let height = |framing: &Framing| {
             let [id] = framing.subjects[..] else { return None };
             let [low, high] = self.heights(self.objects.iter().find(|object| object.id == id)?);
@@ -286,13 +287,12 @@ impl Scanned<'_> {
             let [id] = framing.subjects[..] else { return false };
             is_open && self.is_own(id) && matches!(framing.part, SubjectPart::Top | SubjectPart::Bottom)
         };
-        let ends = [self.as_end(&step.start), self.as_end(&step.end)];
-        if lifts && !self.is_upright() && is_end(&ends[0]) && is_end(&ends[1]) && ends[0].part != ends[1].part {
-            [step.start, step.end] = ends;
-        }
-        if !lifts || !is_end(&step.start) || !is_end(&step.end) || step.start.part == step.end.part {
+        let as_end = |framing: &Framing| if self.is_upright() { framing.clone() } else { self.as_end(framing) };
+        let ends = [as_end(&step.start), as_end(&step.end)];
+        if !lifts || !ends.iter().all(is_end) || ends[0].part == ends[1].part {
             return false;
         }
+        [step.start, step.end] = ends;
         let share = if self.is_upright() { OF_UPRIGHT } else { OF_COMPACT };
         let share = if is_close { share * 1.2 } else { share };
         let grows = if step.with.contains(&Move::PushIn) { NEARER } else { 1.0 };

@@ -112,7 +112,12 @@ fn is_circling(word: &str) -> bool {
 
 /// Whether the clause before word `i` circles something.
 fn circles_in_clause(words: &[Word], i: usize) -> bool {
-    clause_back(words, i, 10).take_while(|word| *word != "and").any(is_circling)
+    circles_within(words, i, 10)
+}
+
+/// Whether the clause circles something at most `num_words` before word `i`.
+fn circles_within(words: &[Word], i: usize, num_words: usize) -> bool {
+    clause_back(words, i, num_words).take_while(|word| *word != "and").any(is_circling)
 }
 
 /// Whether the clause before word `i` has the verb `orbit` or `circle`.
@@ -126,7 +131,7 @@ fn orbits_before(words: &[Word], i: usize) -> bool {
 /// the cactus three quarters of the way,`.
 fn goes_round_before(words: &[Word], i: usize, end: usize) -> bool {
     let ends = matches!(word_at(words, end), "" | "." | "," | ";" | "then" | "and" | "!" | ")");
-    ends && clause_back(words, i, 8).take_while(|word| *word != "and").any(is_circling)
+    ends && circles_within(words, i, 8)
 }
 
 /// Whether the same sentence has a verb of circling within 10 words before word `i`, so that `once` counts turns.

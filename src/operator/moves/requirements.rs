@@ -8,8 +8,8 @@ use crate::composition::lens_fov_deg;
 use crate::constraint::{Constraint, ConstraintKind, Scope};
 use crate::framing::Target;
 use crate::motion::{Angle, MotionSegment};
-use crate::program::{Framing, Limit, Pass, Via};
-use cinesplat_trajectory::ShotAngle;
+use crate::program::{Framing, Pass, Via};
+use cinesplat_trajectory::{Move, ShotAngle};
 
 /// Tolerance of a stated height in the frame, and of a stated distance, over itself.
 const HEIGHT_TOLERANCE: f64 = 0.15;
@@ -22,6 +22,8 @@ const CAMERA_HEIGHT_TOLERANCE: (f64, f64) = (0.1, 0.01);
 /// Largest visible share of a subject that counts as hidden, and of one that is avoided.
 const HIDDEN_FRAC: f64 = 0.1;
 const AVOIDED_FRAC: f64 = 0.05;
+/// Largest share of a thing in the frame that has left it.
+const LEFT_FRAC: f64 = 0.05;
 /// Least share of a kept object in the frame, and least visible share of it.
 const KEPT_FRAC: f64 = 0.5;
 
@@ -115,12 +117,8 @@ fn hide(segment: &mut MotionSegment, framing: &Framing, scope: Scope) {
     }
 }
 
-/// Largest share of a thing in the frame that has left it.
-const LEFT_FRAC: f64 = 0.05;
-
 /// Where a slide or a turn ends without a subject, that has left the frame: the camera does not hide behind something.
 fn leave_frame(context: &StepContext, segment: &mut MotionSegment) {
-    use cinesplat_trajectory::Move;
     let (step, end) = (context.step, &context.step.end);
     let passes = matches!(
         step.movement,
@@ -134,11 +132,8 @@ fn leave_frame(context: &StepContext, segment: &mut MotionSegment) {
             | Move::PedestalDown
     );
     if end.hidden && passes && step.via.is_none() && !end.subjects.is_empty() {
-        segment.constraints.extend(
-            end.subjects
-                .iter()
-                .map(|id| Constraint { kind: ConstraintKind::NotWhole(vec![*id], LEFT_FRAC), scope: Scope::End }),
-        );
+        let left = end.subjects.iter().map(|id| ConstraintKind::NotWhole(vec![*id], LEFT_FRAC));
+        add(segment, Scope::End, left.collect());
     }
 }
 
@@ -154,7 +149,6 @@ fn keep_and_avoid(context: &StepContext, segment: &mut MotionSegment) {
     add(segment, Scope::All, avoided);
     let forbidden = context.forbidden.iter().map(|&motion| ConstraintKind::Without(motion)).collect();
     add(segment, Scope::All, forbidden);
-    let is_paced = |limit: &&Limit| matches!(limit, Limit::Speed(_) | Limit::TurnSpeed(_));
-    let limits = context.limits.iter().filter(|limit| !is_paced(limit)).map(|limit| ConstraintKind::Limited(*limit));
+    let limits = context.limits.iter().filter(|limit| !limit.is_speed()).map(|limit| ConstraintKind::Limited(*limit));
     add(segment, Scope::All, limits.collect());
 }

@@ -86,21 +86,13 @@ fn add_second_move(context: &StepContext, second: Move, segments: &mut [MotionSe
     }
     let zooms = matches!(second, Move::ZoomIn | Move::ZoomOut);
     let violated = |constraint: &Constraint| match constraint.kind {
-        // A lens neither travels nor turns.
-        ConstraintKind::Travel(..)
-        | ConstraintKind::YawChange(_)
-        | ConstraintKind::PitchChange(_)
-        | ConstraintKind::Pitch(_)
-            if zooms =>
-        {
-            false
-        }
         ConstraintKind::DistanceRatio(..) | ConstraintKind::LensRatio(_) => !is_turn(second),
         ConstraintKind::Centered(..) => !keeps_aim,
         ConstraintKind::Travel(..)
         | ConstraintKind::YawChange(_)
         | ConstraintKind::PitchChange(_)
-        | ConstraintKind::Pitch(_) => true,
+        // A lens neither travels nor turns.
+        | ConstraintKind::Pitch(_) => !zooms,
         _ => false,
     };
     segment.constraints.retain(|constraint| !violated(constraint));
