@@ -249,10 +249,11 @@ fn filmed(
         flow.add_handles(handles);
         let mut keys = keyframes(&flow.segments, &labels);
         retime(&mut keys, Some(world.frame));
-        // Blends are faster than what they join.
-        let haste = haste(world, program, &keys);
-        if haste > 1.0 && wanted_secs.is_none() && num_slowed < MOST_SLOWED {
-            natural.iter_mut().filter(|segment| !segment.secs_bind).for_each(|segment| segment.secs *= haste);
+        // Blends are faster than what they join. What is too fast because of a stated length stays so.
+        let is_free = wanted_secs.is_none() && natural.iter().all(|segment| !segment.secs_bind);
+        let haste = if is_free { haste(world, program, &keys) } else { 1.0 };
+        if haste > 1.0 && num_slowed < MOST_SLOWED {
+            natural.iter_mut().for_each(|segment| segment.secs *= haste);
             num_slowed += 1;
             continue;
         }

@@ -11,7 +11,11 @@ fn about(id: u32) -> Framing {
 }
 
 fn solved(step: Step, limits: &[Limit]) -> Solution {
-    let program = Program { steps: vec![step], limits: limits.to_vec(), ..Program::default() };
+    solved_all(vec![step], limits)
+}
+
+fn solved_all(steps: Vec<Step>, limits: &[Limit]) -> Solution {
+    let program = Program { steps, limits: limits.to_vec(), ..Program::default() };
     let settings = SolveSettings { level: SolveLevel::Fast, seed: 3, ..SolveSettings::default() };
     realize(&world(), &program, "", &[], &settings)
 }
@@ -74,4 +78,14 @@ fn a_film_takes_the_time_that_its_speeds_need() {
 fn a_limit_that_the_words_leave_no_time_for_is_not_met() {
     let push = Step { end: about(1), duration_secs: Some(1.0), ..Step::of(Move::PushIn) };
     assert!(!is_met(&solved(push, &[Limit::Speed(0.05)]), "largest speed"));
+}
+
+#[test]
+fn a_step_of_stated_length_that_is_too_fast_does_not_slow_the_others() {
+    let push = || Step { end: about(1), duration_secs: Some(1.0), ..Step::of(Move::PushIn) };
+    let truck = || Step { end: about(2), either_way: true, ..Step::of(Move::TruckRight) };
+    let limits = [Limit::Speed(0.1)];
+    let (alone, both) = (solved(truck(), &limits), solved_all(vec![push(), truck()], &limits));
+    assert!(!is_met(&both, "largest speed"));
+    assert!(both.duration_secs < 4.0 * alone.duration_secs, "{} {}", both.duration_secs, alone.duration_secs);
 }
