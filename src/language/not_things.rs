@@ -319,6 +319,16 @@ mod tests {
     }
 
     #[test]
+    fn chores_decorations_and_portraits_are_no_things() {
+        assert!(is_none("push in, sorry about the wind, I'm walking the dog", "the dog"));
+        assert!(!is_none("pan to the dog", "the dog"));
+        assert!(is_none("the rest is only decoration", "decoration"));
+        assert!(!is_none("push in on the decoration", "decoration"));
+        assert!(is_none("portrait of the skull, three-quarter view", "portrait"));
+        assert!(!is_none("push in on the portrait above the sofa", "portrait"));
+    }
+
+    #[test]
     fn what_somebody_is_compared_with_is_no_thing() {
         assert!(is_none("fly up like a drone", "drone"));
         assert!(is_none("i am the cat. low along the floor", "the cat"));

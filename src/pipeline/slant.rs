@@ -96,6 +96,20 @@ mod tests {
     use super::*;
 
     #[test]
+    fn a_roll_by_an_angle_is_the_slant_itself() {
+        let rolled = |prompt: &str, amount| {
+            let step = Step { amount, words: Some([0, prompt.len()]), ..Step::of(Move::RollCw) };
+            let program = Program { steps: vec![step], ..Program::default() };
+            let linked = cinesplat_language::link(prompt, &[]).unwrap();
+            slant_of(&cinesplat_language::effect_mentions(prompt, &linked).unwrap(), &program, prompt)
+        };
+        let by = Some(Amount::Degrees(20.0));
+        assert_eq!(rolled("dutch angle, roll clockwise by 20 degrees", by), None);
+        assert!(rolled("dutch angle, roll clockwise", None).is_some());
+        assert!(rolled("dutch angle, roll clockwise by 20 degrees until level", by).is_some());
+    }
+
+    #[test]
     fn a_roll_back_ends_level() {
         assert!(ends_level("Start on a dutch angle, the guitar, and roll slowly back to level."));
         assert!(ends_level("canted on the vase, then roll until the horizon is straight"));

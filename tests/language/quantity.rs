@@ -220,6 +220,7 @@ fn angles_as_people_type_them() {
             ("90 deg", 90.0),
             ("half circle", 180.0),
             ("three-quarters of the way round", 270.0),
+            ("go round the skull three quarters of the way, rising", 270.0),
             ("turn 180", 180.0),
             ("a 180", 180.0),
             ("full 360", 360.0),

@@ -61,10 +61,11 @@ pub(crate) fn sway_to_each(linked: &Linked, direction: &mut Direction) {
             base.look = Some(Look::At(std::mem::take(&mut base.end).subjects));
         }
         let swayed = |is_left: &bool| Step { movement: if *is_left { left } else { right }, ..base.clone() };
-        direction.program.steps[nth] = swayed(&sides[0]);
-        let more = sides.len() - 1;
+        let mut swayed: Vec<Step> = sides.iter().map(swayed).collect();
+        direction.program.steps[nth] = swayed.remove(0);
+        let more = swayed.len();
         let others = Direction {
-            program: Program { steps: sides[1..].iter().map(swayed).collect(), ..Program::default() },
+            program: Program { steps: swayed, ..Program::default() },
             step_cameras: direction.step_cameras.get(nth).map_or_else(Vec::new, |cameras| vec![*cameras; more]),
             certainty: direction.certainty.get(nth).map_or_else(Vec::new, |certainty| vec![certainty.clone(); more]),
             ..Direction::default()
