@@ -186,6 +186,9 @@ fn framing(preposition: &str, framing: &Framing, objects: &ObjectSet) -> Option<
         Lens::Long => "long lens".to_owned(),
     }));
     parts.extend(framing.hidden.then(|| "hidden".to_owned()));
+    if !framing.backdrop.is_empty() {
+        parts.push(format!("with {} behind it", names(&framing.backdrop, objects)));
+    }
     Some(format!("{preposition} {}", parts.join(" ")))
 }
 

@@ -180,7 +180,7 @@ impl Director {
         };
         let mut linked = Linked { scenery, acts, ..link_parts(prompt, &mentions, &part)? };
         name_nearest(prompt, &found, &mut linked);
-        Ok(linked.without_limits()?)
+        Ok(linked.without_limits()?.without_backdrops())
     }
 
     /// Ids of the objects that are inputs of the network: those that the prompt names, then the nearest others.

@@ -38,7 +38,7 @@
 //!           | side qualifier { qualifier } ;        (* adds to a framing *)
 //! side      = "start" | "end" ;
 //! subjects  = "room" | object { "+" object } ;
-//! qualifier = ":" ( SIZE | ANGLE | PART | SIDE | PLACE | lens | measure | "hidden" ) | "!" | "+" object ;
+//! qualifier = ":" ( SIZE | ANGLE | PART | SIDE | PLACE | lens | measure | "hidden" | "before-" object ) | "!" | "+" object ;
 //! lens      = number "mm" | number "fov" | "wide-lens" | "long-lens" ;
 //! measure   = number "%"                            (* height of the subject over that of the frame *)
 //!           | number "deg"                          (* elevation from which the subject is seen *)
@@ -85,6 +85,7 @@
 //! What [`program_to_notation`] prints is also a [`Pattern`] ([`program_pattern`]). Its [`Automaton`] holds a writer to
 //! the notation byte by byte: whatever it lets pass parses.
 
+mod backdrops;
 mod blanks;
 mod borne;
 mod chain;
@@ -139,7 +140,7 @@ pub use inflection::{VerbForm, inflect, stem};
 pub use known_words::GRAMMAR_TEXT;
 pub use lexicon::{Lexicon, WordList};
 pub use link::link;
-pub use linked::{Group, Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS};
+pub use linked::{Backdrop, Group, Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS};
 pub use mention::{Mention, check_prompt, link_mentions, link_parts};
 pub use names::{NamedObject, nearest_names};
 pub use not_things::is_no_thing;

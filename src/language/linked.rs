@@ -45,6 +45,8 @@ pub struct Linked {
     pub acts: Vec<[usize; 2]>,
     /// Limits that the words set for the whole film; these words are none of the list.
     pub limits: Vec<Limit>,
+    /// What is seen behind the subjects; these words are none of the list.
+    pub backdrops: Vec<Backdrop>,
     /// Names that match no object.
     pub unknown: Vec<UnknownName>,
     /// The parts of a prompt that says part by part what happens when.
@@ -53,6 +55,17 @@ pub struct Linked {
     pub scenery: Vec<[usize; 2]>,
     /// Messages for the user about mentions that fit several objects or are misspelled.
     pub warnings: Vec<String>,
+}
+
+/// Objects that words say are seen behind others.
+#[derive(Debug, Clone, PartialEq, Eq)]
+pub struct Backdrop {
+    /// Ids of what is seen behind.
+    pub ids: Vec<u32>,
+    /// Ids of what it is seen behind.
+    pub of: Vec<u32>,
+    /// Byte of the prompt at which the words begin.
+    pub at: usize,
 }
 
 /// A mention of several objects or of none.

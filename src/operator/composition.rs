@@ -3,7 +3,7 @@
 use glam::{DVec2, DVec3};
 
 use super::framing::{MANY, Target, frame_ray};
-use super::program::{FramePlace, Lens, SubjectSide};
+use super::program::{FramePlace, Framing, Lens, SubjectSide};
 use super::world::World;
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::CameraState;
@@ -126,6 +126,18 @@ pub(super) fn square_azimuths(world: &World, target: &Target, side: SubjectSide)
         nearest.filter(|way| off(way) < SQUARE_RAD).unwrap_or(middle)
     };
     middles.into_iter().map(square).collect()
+}
+
+/// Azimuths from which the camera stands where a framing says: on the stated side, or opposite the backdrop. `None` where it
+/// says neither, and where the backdrop is straight above or below.
+pub(super) fn stated_azimuths(world: &World, target: &Target, framing: &Framing) -> Option<Vec<f64>> {
+    if let Some(side) = framing.side {
+        return Some(square_azimuths(world, target, side));
+    }
+    let objects = framing.backdrop.iter().filter_map(|&id| world.subject(id));
+    let ways: Vec<DVec3> = objects.map(|object| world.frame.horizontal(target.center - object.center)).collect();
+    let way = ways.iter().map(|way| way.normalize_or_zero()).sum::<DVec3>();
+    (way.length() > 1e-6).then(|| vec![world.frame.azimuth(way)])
 }
 
 /// Largest angle between the middle of a side and the box's own side for which the camera stands before that, radians.

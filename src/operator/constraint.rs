@@ -97,6 +97,9 @@ pub(super) enum ConstraintKind {
     /// The object is nearer than the target and in the outer third of the frame or its lower part: the middle of its
     /// points in the frame is [`FOREGROUND_OFF`] and more beside or below the frame's middle.
     Foreground(u32, Target),
+    /// The object is seen behind the target's first subject: [`BACKDROP_FRAC`] of it is in the frame, its center is
+    /// farther away, and in the frame at most [`BACKDROP_OFF`] beside the subject's.
+    Backdrop(u32, Target),
     /// The segment also contains a further move; the point is its subject.
     Also(Move, DVec3),
     /// The segment does not contain a motion. The report lists it once for the whole film.
@@ -117,6 +120,9 @@ impl Constraint {
 pub(super) const PLACE_TOLERANCE: f64 = 0.04;
 /// Least distance of a foreground from the frame's middle, to a side or below, over the frame's width or height.
 pub(super) const FOREGROUND_OFF: f64 = 1.0 / 6.0;
+/// Least share of a backdrop in the frame, and its largest distance beside its subject, over the frame's width.
+pub(super) const BACKDROP_FRAC: f64 = 0.4;
+pub(super) const BACKDROP_OFF: f64 = 0.5;
 /// Angle from the middle of a side that counts as that side, degrees.
 pub(super) const SIDE_TOLERANCE_DEG: f64 = 40.0;
 /// Share of a segment on which a camera that looks along its path must do so; on the rest it may turn to its goal.

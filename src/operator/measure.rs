@@ -4,7 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::composition::{frame_place, off_side_deg};
 use super::constraint::{
-    AHEAD_FRAC, Constraint, ConstraintKind, FOREGROUND_OFF, PLACE_TOLERANCE, SIDE_TOLERANCE_DEG, Scope, TravelDirection,
+    AHEAD_FRAC, BACKDROP_FRAC, BACKDROP_OFF, Constraint, ConstraintKind, FOREGROUND_OFF, PLACE_TOLERANCE, SIDE_TOLERANCE_DEG, Scope, TravelDirection,
 };
 use super::framing::{
     Target, bearing_of, extent_frac, frame_position, in_frame_frac, off_center, seen_frac, unoccluded_frac,
@@ -125,6 +125,10 @@ fn composed(world: &World, kind: &ConstraintKind, state: &CameraState, num_point
             let off = foreground_off(world, *id, target, state).unwrap_or(f64::NAN);
             range_violation(off, (FOREGROUND_OFF, 0.5), 0.2)
         }
+        ConstraintKind::Backdrop(id, target) => {
+            let off = backdrop_off(world, *id, target, state).unwrap_or(f64::NAN);
+            range_violation(off, (0.0, BACKDROP_OFF), 0.5)
+        }
         ConstraintKind::Limited(limit) => {
             let (value, band) = measured(world, limit, state);
             range_violation(value, band, LIMIT_UNIT_FRAC * world.bounds.size())
@@ -149,6 +153,16 @@ fn foreground_off(world: &World, id: u32, target: &Target, state: &CameraState) 
     let share = inside.len() as f64 / subject.points.len().max(1) as f64;
     let middle = inside.iter().sum::<DVec2>() / inside.len().max(1) as f64;
     (nearer && share >= FOREGROUND_FRAC).then(|| middle.x.abs().max(-middle.y))
+}
+
+/// Distance of an object's center beside that of the target's first subject, over the frame's width. `None` where the object
+/// is not farther away, or where less than [`BACKDROP_FRAC`] of it is in the frame.
+fn backdrop_off(world: &World, id: u32, target: &Target, state: &CameraState) -> Option<f64> {
+    let object = world.subject(id)?;
+    let (own, own_depth) = frame_position(world, state, target.center)?;
+    let (at, depth) = frame_position(world, state, object.center)?;
+    let is_behind = depth > own_depth && in_frame_frac(world, state, &object.points, 0.0) >= BACKDROP_FRAC;
+    is_behind.then(|| (at.x - own.x).abs())
 }
 
 /// Angle between the view axis and the direction of travel (`sign` 1) or its opposite (-1) between two samples, degrees.

@@ -123,9 +123,9 @@ impl Program {
                 Some(Look::At(ids)) => Some(ids),
                 _ => None,
             };
-            let lists =
-                [Some(&mut start.subjects), Some(&mut end.subjects), passed, looked_at, Some(keep), Some(avoid)];
-            for ids in lists.into_iter().flatten() {
+            let framings = [start, end].map(|Framing { subjects, backdrop, .. }| [Some(subjects), Some(backdrop)]);
+            let lists = framings.into_iter().flatten().chain([passed, looked_at, Some(keep), Some(avoid)]);
+            for ids in lists.flatten() {
                 *ids = map(ids);
             }
         }
@@ -145,7 +145,7 @@ impl Program {
             _ => Vec::new(),
         };
         let named = |step: &Step| {
-            let ends = [&step.start.subjects[..], &step.end.subjects[..]].concat();
+            let ends = [&step.start, &step.end].map(|end| [&end.subjects[..], &end.backdrop[..]].concat()).concat();
             [&ends[..], &passed(step), &looked_at(step), &step.keep, &step.avoid].concat()
         };
         let limited = self.limits.iter().filter_map(Limit::object);
@@ -273,6 +273,9 @@ pub struct Framing {
     pub place: Option<FramePlace>,
     /// The subjects must not be visible: at most 10 % of each is in the frame and visible.
     pub hidden: bool,
+    /// Ids of objects that are seen behind the first subject, as in `with the window behind it`: at least 40 % of each in
+    /// the frame, half of that visible, its center farther away than the subject's and at most half of the frame beside it.
+    pub backdrop: Vec<u32>,
 }
 
 /// A lens, as a prompt states it.

@@ -66,8 +66,9 @@ fn drop_places(step: &mut Step) -> Option<&'static str> {
         is_dropped |= framing.side.take().is_some();
         is_dropped |= framing.height.take().is_some();
         is_dropped |= framing.distance.take().is_some();
+        is_dropped |= !std::mem::take(&mut framing.backdrop).is_empty();
     }
-    is_dropped.then_some("the side, height or distance that the words state")
+    is_dropped.then_some("the side, height, distance or background that the words state")
 }
 
 /// Goes less far around a thing.

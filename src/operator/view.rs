@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use glam::DVec3;
 
-use super::composition::{lens_fov_deg, natural_elevation_deg, square_azimuths};
+use super::composition::{lens_fov_deg, natural_elevation_deg, stated_azimuths};
 use super::framing::{Bearing, Fill, Target, bearing_of, distance_for, view_at};
 use super::motion::StepParameters;
 use super::program::{Framing, SubjectPart};
@@ -129,8 +129,8 @@ pub(super) fn opening_view(
     parameters: &StepParameters,
 ) -> CameraState {
     let proposed = suggestion.map(|cameras| bearing_of(world, target.aim, cameras.start.pose.position));
-    let azimuth_rad = match framing.side {
-        Some(side) => beside(&square_azimuths(world, target, side), parameters),
+    let azimuth_rad = match stated_azimuths(world, target, framing) {
+        Some(azimuths_rad) => beside(&azimuths_rad, parameters),
         None => azimuth(range, proposed, parameters),
     };
     let elevation_deg = match framing.angle {

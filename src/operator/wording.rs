@@ -1,7 +1,7 @@
 //! Constraints in words.
 
 use super::composition::place_words;
-use super::constraint::{Constraint, ConstraintKind, FOREGROUND_OFF, PLACE_TOLERANCE, SIDE_TOLERANCE_DEG, Scope};
+use super::constraint::{BACKDROP_OFF, Constraint, ConstraintKind, FOREGROUND_OFF, PLACE_TOLERANCE, SIDE_TOLERANCE_DEG, Scope};
 use super::passage::STANDING_FRAC;
 use super::program::Pass;
 use super::simultaneous::extent_words;
@@ -70,6 +70,11 @@ fn composition_wording(kind: &ConstraintKind, names: &dyn Fn(&[u32]) -> String) 
         ConstraintKind::Passed(how, id) => passage_wording(*how, &names(&[*id])),
         ConstraintKind::Foreground(id, target) => format!(
             "{} in the foreground of {}: beside or below the middle of the frame by {FOREGROUND_OFF:.2} to 0.50",
+            names(&[*id]),
+            names(&target.ids)
+        ),
+        ConstraintKind::Backdrop(id, target) => format!(
+            "{} behind {}: farther away, at most {BACKDROP_OFF:.2} of the frame's width beside it",
             names(&[*id]),
             names(&target.ids)
         ),

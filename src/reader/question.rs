@@ -185,7 +185,7 @@ fn instructions() -> String {
          OBJECTS: numbers of the list, joined by +\n\
          QUALIFIERS, in this order: size {sizes}; 40% of the height of the frame; angle {angles}; 30deg above; height \
          h1.6u; distance d2u; lens 35mm 60fov wide-lens long-lens; part top bottom left right; side {sides}; place \
-         {places}; hidden; then ! if the whole of it must be in the picture\n\
+         {places}; hidden; before-7 if 7 is seen behind it; then ! if the whole of it must be in the picture\n\
          After the steps, if the sentence says so: \" | total=5s\" for the length of the film, \" | no=zoom\" for \
          motions that it rules out ({motions}).\n\
          If there is nothing that a camera could do: none."

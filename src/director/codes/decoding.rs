@@ -52,6 +52,8 @@ fn framing(code: &KeyCode, end: &FramingEnd, grounding: &Grounding) -> Framing {
         side: optional(SubjectSide::VARIANTS, side),
         place: optional(FramePlace::VARIANTS, place),
         hidden: hidden == 1,
+        // Backgrounds are read from the words.
+        backdrop: Vec::new(),
     }
 }
 

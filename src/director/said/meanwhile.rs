@@ -39,7 +39,6 @@ const ONCE_MORE: &str = "to the and then . , again once more back over it a litt
 
 /// Goes to each side that the words list behind one verb: `we sway to the left ... to the right ... and to the left once more`.
 pub(crate) fn sway_to_each(linked: &Linked, direction: &mut Direction) {
-    let words: Vec<(&str, [usize; 2])> = linked.words_in([0, usize::MAX]).collect();
     for nth in (0..direction.program.steps.len()).rev() {
         let step = &direction.program.steps[nth];
         if !matches!(step.movement, Move::TruckLeft | Move::TruckRight | Move::PanLeft | Move::PanRight) {
@@ -47,9 +46,7 @@ pub(crate) fn sway_to_each(linked: &Linked, direction: &mut Direction) {
         }
         let Some([from, _]) = step.words else { continue };
         let next = direction.program.steps.get(nth + 1).and_then(|step| step.words).map_or(usize::MAX, |next| next[0]);
-        let own: Vec<(&str, [usize; 2])> =
-            words.iter().filter(|(_, span)| (from..next).contains(&span[0])).copied().collect();
-        let sides = sides_in(&own);
+        let sides = sides_in(&linked.texts_in([from, next]));
         if sides.len() < 3 {
             continue;
         }
@@ -75,10 +72,10 @@ pub(crate) fn sway_to_each(linked: &Linked, direction: &mut Direction) {
 }
 
 /// The sides that words list one after another, whether each is the left one: nothing else stands between them.
-fn sides_in(words: &[(&str, [usize; 2])]) -> Vec<bool> {
+fn sides_in(words: &[&str]) -> Vec<bool> {
     let mut sides = Vec::new();
-    let first = words.iter().position(|(word, _)| matches!(*word, "left" | "right"));
-    for (word, _) in words.iter().skip(first.unwrap_or(words.len())) {
+    let first = words.iter().position(|word| matches!(*word, "left" | "right"));
+    for word in words.iter().skip(first.unwrap_or(words.len())) {
         match *word {
             "left" => sides.push(true),
             "right" => sides.push(false),

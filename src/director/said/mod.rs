@@ -3,6 +3,7 @@
 mod amounts;
 mod arrivals;
 mod asides;
+mod backdrops;
 mod bans;
 mod briefs;
 mod called;
@@ -302,4 +303,5 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     named_times::take_named_times(linked, &mut direction.program);
     named_times::merge_named_speeds(linked, direction);
     fixed::lock_off(linked, &mut direction.program.steps);
+    backdrops::set_backdrops(linked, &mut direction.program.steps);
 }

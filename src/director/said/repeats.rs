@@ -306,6 +306,7 @@ fn framing_of(own: &Framing, other: &Framing) -> Framing {
         side: other.side.or(own.side),
         place: other.place.or(own.place),
         hidden: own.hidden || other.hidden,
+        backdrop: if other.backdrop.is_empty() { own.backdrop.clone() } else { other.backdrop.clone() },
     }
 }
 

@@ -57,8 +57,8 @@ fn step_pattern(ids: &[u32]) -> Pattern {
     let via = sequence([Pattern::one_of(Pass::VARIANTS), Pattern::text("="), objects()]);
     let tokens = [
         after("with=", moves().list("+", MAX_SECOND_MOVES)),
-        after("start=", framing(&objects())),
-        after("end=", framing(&objects())),
+        after("start=", framing(&objects(), ids)),
+        after("end=", framing(&objects(), ids)),
         via,
         after("look=", look),
         after("keep=", objects()),
@@ -76,7 +76,7 @@ fn step_pattern(ids: &[u32]) -> Pattern {
 }
 
 /// Objects with any qualifiers, or the room with at least one: without any it would be no framing.
-fn framing(objects: &Pattern) -> Pattern {
+fn framing(objects: &Pattern, ids: &[u32]) -> Pattern {
     let measured = |before: &str, unit: &str| sequence([Pattern::text(before), number(), Pattern::text(unit)]);
     let elevation = Pattern::Choice(vec![number(), after("-", positive_number())]);
     let lens = [measured("", "mm"), measured("", "fov"), Pattern::one_of(["wide-lens", "long-lens"])];
@@ -92,6 +92,7 @@ fn framing(objects: &Pattern) -> Pattern {
         Pattern::one_of(SubjectSide::VARIANTS),
         Pattern::one_of(FramePlace::VARIANTS),
         Pattern::text("hidden"),
+        after("before-", Pattern::one_of(ids.iter().map(u32::to_string))).list(":", MAX_LISTED),
     ];
     let marked = qualifiers.into_iter().map(|qualifier| after(":", qualifier));
     let marked: Vec<Pattern> = marked.chain([Pattern::text("!")]).collect();

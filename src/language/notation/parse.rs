@@ -250,7 +250,10 @@ fn add_to_framing(framing: &mut Framing, qualifiers: &str, resolve: &Resolve) ->
         match mark {
             '!' => framing.whole = true,
             '+' => framing.subjects.extend(objects(value, resolve)?),
-            _ => qualify(framing, value)?,
+            _ => match value.strip_prefix("before-") {
+                Some(names) => framing.backdrop.extend(objects(names, resolve)?),
+                None => qualify(framing, value)?,
+            },
         }
         rest = after;
     }

@@ -90,7 +90,8 @@ fn framing_to_notation(framing: &Framing) -> Option<String> {
         name(framing.place.map(<&str>::from)),
         name(framing.hidden.then_some("hidden")),
     ];
-    for qualifier in qualifiers.into_iter().flatten() {
+    let backdrop = framing.backdrop.iter().map(|id| format!("before-{id}"));
+    for qualifier in qualifiers.into_iter().flatten().chain(backdrop) {
         text.push(':');
         text.push_str(&qualifier);
     }

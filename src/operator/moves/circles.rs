@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
 use super::paths::end_view;
 use super::with::factor_beside_circle;
-use crate::composition::square_azimuths;
+use crate::composition::stated_azimuths;
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
 use crate::framing::{Bearing, Fill, Target, bearing_of, distance_for, view_at};
 use crate::motion::MotionSegment;
@@ -111,12 +111,12 @@ const LEAST_SQUEEZE: f64 = 0.35;
 /// Widest vertical field of view of an orbit between walls, degrees.
 const SQUEEZED_LENS_DEG: f64 = 72.0;
 
-/// Angle of an orbit that ends on a stated side of its subject: at least 20 degrees. `None` where the prompt states no
-/// side, or an angle.
+/// Angle of an orbit that ends on a stated side of its subject or before a background: at least 20 degrees. `None` where the prompt
+/// states neither, or an angle.
 fn deg_to_side(context: &StepContext, target: &Target, from_rad: f64, sign: f64) -> Option<f64> {
-    let side = context.step.end.side.filter(|_| context.step.amount.is_none())?;
+    let stated = stated_azimuths(context.world, target, &context.step.end).filter(|_| context.step.amount.is_none())?;
     let turn = |to: f64| ((to - from_rad) * sign).rem_euclid(std::f64::consts::TAU).to_degrees();
-    let turns = square_azimuths(context.world, target, side).into_iter().map(turn);
+    let turns = stated.into_iter().map(turn);
     Some(turns.map(|deg| if deg < 20.0 { deg + 360.0 } else { deg }).fold(f64::INFINITY, f64::min))
 }
 

@@ -177,6 +177,9 @@ impl<'a> StepContext<'a> {
         }
         let keeps = |quantity: Quantity| kept(self.step.movement).contains(&quantity);
         framing.side = framing.side.or(end.side.filter(|_| keeps(Quantity::Side)));
+        if framing.backdrop.is_empty() && keeps(Quantity::Side) {
+            framing.backdrop.clone_from(&end.backdrop);
+        }
         framing.elevation_deg = framing.elevation_deg.or(end.elevation_deg.filter(|_| keeps(Quantity::Elevation)));
         framing.height = framing.height.or(end.height.filter(|_| keeps(Quantity::Height)));
         if keeps(Quantity::Distance) {
@@ -400,6 +403,7 @@ fn is_composed(framing: &Framing) -> bool {
         || framing.side.is_some()
         || framing.place.is_some()
         || framing.hidden
+        || !framing.backdrop.is_empty()
 }
 
 /// The segment with the first two subjects of a target required to be visible.

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
 use super::room_view::room_target;
 use super::standing::turned_away;
-use crate::composition::{natural_elevation_deg, square_azimuths};
+use crate::composition::{natural_elevation_deg, stated_azimuths};
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
 use crate::contents::middle_of_things;
 use crate::detours::is_clear;
@@ -108,8 +108,8 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
     };
     let framing = &context.step.end;
     let wall_front_rad = wall_front(context, end);
-    let azimuth_rad = match framing.side {
-        Some(side) => nearest(&square_azimuths(world, end, side), near.azimuth_rad) + spread(parameters[5]) * 0.21,
+    let azimuth_rad = match stated_azimuths(world, end, framing) {
+        Some(stated) => nearest(&stated, near.azimuth_rad) + spread(parameters[5]) * 0.21,
         None => match wall_front_rad {
             // What hangs on a wall or is part of it is looked at from its front.
             Some(front_rad) => front_rad + spread(parameters[5]) * 0.5,

@@ -27,6 +27,9 @@ const LEFT_FRAC: f64 = 0.05;
 /// Least share of a kept object in the frame, and least visible share of it.
 const KEPT_FRAC: f64 = 0.5;
 
+/// Least visible share of what of a backdrop is in the frame.
+const BACKDROP_SEEN_FRAC: f64 = 0.5;
+
 /// Adds the constraints of a step to its segments.
 pub(super) fn require(context: &StepContext, segments: &mut [MotionSegment]) {
     let step = context.step;
@@ -90,6 +93,9 @@ fn framing(context: &StepContext, framing: &Framing, target: &Target) -> Vec<Con
     );
     out.extend(framing.side.map(|side| ConstraintKind::FromSide(of(), side)));
     out.extend(framing.place.map(|place| ConstraintKind::Placed(of(), place)));
+    for &id in &framing.backdrop {
+        out.extend([ConstraintKind::Backdrop(id, of()), ConstraintKind::Unoccluded(id, BACKDROP_SEEN_FRAC)]);
+    }
     if framing.hidden {
         let ids = if framing.subjects.is_empty() { &target.ids } else { &framing.subjects };
         out.extend(ids.iter().map(|&id| ConstraintKind::Unseen(id, HIDDEN_FRAC)));
