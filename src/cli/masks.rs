@@ -6,7 +6,7 @@ use std::path::{Component, Path, PathBuf};
 use super::failure::{Exit, Failure};
 use super::progress::FrameProgress;
 use super::{console, outputs};
-use cinesplat::export::{self, Format, ImageLens, PoseTrack, cameras_json};
+use cinesplat::export::{self, ExportError, Format, ImageLens, PoseTrack, cameras_json};
 use cinesplat::geometry::{Camera, Intrinsics, Pose};
 use cinesplat::objects::{self, ObjectSet, PosedMask};
 use cinesplat::scene::Scene;
@@ -40,6 +40,10 @@ pub(super) fn lift(scene: &Scene, masks: &[PosedMask]) -> Result<ObjectSet, Fail
 
 /// The masks of a folder with the cameras of a file: each mask has the name of its image, with the extension `png`.
 pub(super) fn read(folder: &Path, cameras: &Path) -> Result<Vec<PosedMask>, Failure> {
+    if !folder.is_dir() {
+        let found = format!("{}: no such folder, expected one with a PNG file of ids per image", folder.display());
+        return Err(bad(found, "give the folder of the masks with --masks"));
+    }
     let cameras = named_cameras(cameras)?;
     let mut masks = Vec::new();
     let mut image_of: BTreeMap<PathBuf, &str> = BTreeMap::new();
@@ -153,7 +157,13 @@ impl MaskLens {
 
 /// The cameras by the names of their images.
 fn named_cameras(path: &Path) -> Result<BTreeMap<String, ImageCamera>, Failure> {
-    let imported = export::read(path, None).map_err(|error| Failure::from(error).in_file(path))?;
+    let imported = export::read(path, None).map_err(|error| match error {
+        ExportError::WrongFormat { .. } => {
+            let found = format!("{}: {error}", path.display());
+            bad(found, "give the cameras of the images: transforms.json, a COLMAP model or a cameras file")
+        }
+        error => Failure::from(error).in_file(path),
+    })?;
     if imported.format == Format::Cameras {
         let cameras = cameras_json::read(&outputs::read_text(path)?);
         let cameras = cameras.map_err(|error| Failure::from(error).in_file(path))?.cameras;

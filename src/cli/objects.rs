@@ -7,7 +7,7 @@ use super::failure::{Exit, Failure};
 use super::outputs::Overwrite;
 use super::scene_args::{SceneArgs, print_up};
 use super::{console, heading, masks, outputs, reproduce};
-use cinesplat::objects::{self, FindSettings, Object, ObjectSet, Renaming, SheetSettings};
+use cinesplat::objects::{self, EditError, FindSettings, Object, ObjectSet, Renaming, SheetSettings};
 use cinesplat::pipeline;
 use cinesplat::scene::Scene;
 use cinesplat::video;
@@ -22,6 +22,7 @@ Examples:
   cinesplat objects room.spz -o objects.json --sheet objects.html
   cinesplat objects room.spz --masks masks --cameras transforms.json -o objects.json
   cinesplat objects room.spz --objects objects.json --name 41=mug -o objects.json --overwrite
+  cinesplat objects room.spz --objects objects.json --merge 3,7,8 --drop 41,42 -o objects.json --overwrite
 A prompt can then say \"the mug\"; <obj-41> always works.")]
 pub(super) struct Args {
     #[command(flatten)]
@@ -45,7 +46,7 @@ pub(super) struct Args {
     #[arg(long, value_name = "CAMERAS", help_heading = heading::SCENE, requires = "masks")]
     cameras: Option<PathBuf>,
     /// Read the objects from an objects file
-    #[arg(long, value_name = "OBJECTS.JSON", help_heading = heading::SCENE)]
+    #[arg(long, value_name = "OBJECTS.JSON", help_heading = heading::SCENE, conflicts_with = "detail")]
     objects: Option<PathBuf>,
     /// How far to divide things that are found into parts: 0, 1 or 2 [default: 1]
     ///
@@ -58,6 +59,16 @@ pub(super) struct Args {
     /// Name the objects in a file with one ID=NAME per line
     #[arg(long, value_name = "NAMES.TXT", help_heading = heading::OUTPUT)]
     rename: Option<PathBuf>,
+    /// Join objects into the first of them, such as 3,7,8; may be repeated
+    ///
+    /// The first keeps its id and name and gets the Gaussians and the parts of the others.
+    #[arg(long, value_name = "ID,ID..", help_heading = heading::OUTPUT, value_parser = parse_ids)]
+    merge: Vec<Ids>,
+    /// Take out objects that are none, such as 41,42; may be repeated
+    ///
+    /// The Gaussians of a part go back to its whole; a whole leaves with its parts.
+    #[arg(long, value_name = "ID,ID..", help_heading = heading::OUTPUT, value_parser = parse_ids)]
+    drop: Vec<Ids>,
     /// Write a sheet of every object, cut out, with its id: PNG or HTML
     #[arg(long, value_name = "SHEET", help_heading = heading::OUTPUT)]
     sheet: Option<PathBuf>,
@@ -72,8 +83,14 @@ impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         self.check_outputs()?;
         let names = self.names()?;
+        self.check_kept()?;
         let (scene, mut set) = self.open()?;
+        self.edit(&scene, &mut set)?;
         objects::rename(&mut set, &names).map_err(|id| no_such_object(id, &set))?;
+        warn_of_twins(&set, &names);
+        if set.objects.is_empty() {
+            console::warnings([format!("{}: no objects", self.source().display())]);
+        }
         if let Some(path) = &self.sheet {
             self.write_sheet(path, &scene, &set)?;
         }
@@ -119,6 +136,48 @@ impl Args {
             ("the names", self.rename.as_deref()),
         ];
         outputs::check_not_inputs(named(), inputs)
+    }
+
+    /// Refuses names and corrections that no file would keep.
+    fn check_kept(&self) -> Result<(), Failure> {
+        let edits = [
+            ("--name", !self.name.is_empty()),
+            ("--rename", self.rename.is_some()),
+            ("--merge", !self.merge.is_empty()),
+            ("--drop", !self.drop.is_empty()),
+        ];
+        let is_kept = self.output.is_some() || self.sheet.is_some() || self.json;
+        match edits.iter().find(|(_, is_given)| *is_given && !is_kept) {
+            Some((flag, _)) => {
+                let found = format!("{flag} without a file to write, expected -o OBJECTS.JSON");
+                Err(Failure::usage(found, "add -o objects.json (and --overwrite, where that is the file of --objects)"))
+            }
+            None => Ok(()),
+        }
+    }
+
+    /// Joins and takes out what --merge and --drop say.
+    fn edit(&self, scene: &Scene, set: &mut ObjectSet) -> Result<(), Failure> {
+        let failed = |error: EditError, set: &ObjectSet| match error {
+            EditError::Unknown(id) => no_such_object(id, set),
+            EditError::PartOf { part, whole } => {
+                let found = format!("--merge {part},{whole}: {error}, expected the whole first");
+                Failure::new("OBJ-MERGE", found, &format!("--merge {whole},{part}"), Exit::BadData)
+            }
+        };
+        for Ids(ids) in &self.merge {
+            objects::merge(scene, set, ids).map_err(|error| failed(error, set))?;
+        }
+        for Ids(ids) in &self.drop {
+            objects::remove(set, ids).map_err(|error| failed(error, set))?;
+        }
+        Ok(())
+    }
+
+    /// The file that the objects come from.
+    fn source(&self) -> &Path {
+        let files = [self.objects.as_deref(), self.masks.as_deref(), self.labels.as_deref()];
+        files.into_iter().flatten().next().unwrap_or(&self.scene.scene)
     }
 
     /// The names of --rename and --name; the latter win.
@@ -183,6 +242,38 @@ fn check_sheet_name(path: &Path) -> Result<(), Failure> {
     } else {
         let found = format!("{}: a sheet is a picture or a page, expected .png or .html", path.display());
         Err(Failure::usage(found, "name the sheet something such as sheet.png or sheet.html"))
+    }
+}
+
+/// Ids of objects, as a flag lists them.
+#[derive(Debug, Clone, PartialEq, Eq)]
+struct Ids(Vec<u32>);
+
+fn parse_ids(text: &str) -> Result<Ids, String> {
+    let expected = || format!("expected ids such as 3,7,8, found `{text}`");
+    let id = |word: &str| {
+        let word = word.trim().trim_start_matches("<obj-").trim_end_matches('>');
+        word.parse().ok().filter(|id| (1..=65535).contains(id)).ok_or_else(expected)
+    };
+    text.split(',').map(id).collect::<Result<_, _>>().map(Ids)
+}
+
+/// Says which new names several objects have: a prompt with such a name means one of them.
+fn warn_of_twins(set: &ObjectSet, names: &[Renaming]) {
+    let mut told: Vec<&str> = Vec::new();
+    for Renaming { name, .. } in names {
+        let called: Vec<String> = set
+            .objects
+            .iter()
+            .filter(|object| object.label.eq_ignore_ascii_case(name))
+            .map(|object| format!("<obj-{}>", object.id))
+            .collect();
+        if called.len() > 1 && !told.contains(&name.as_str()) {
+            told.push(name);
+            let which = called.join(" and ");
+            let told = format!("{which} are both called \"{name}\": a prompt tells them apart by their ids alone");
+            console::warnings([told]);
+        }
     }
 }
 

@@ -69,7 +69,7 @@ impl SceneArgs {
         let (scene, set) = opened.with_objects(file)?;
         console::warnings(scene.notes.iter().skip(num_printed));
         if is_searched {
-            console::note(&format!("objects: found {} (`cinesplat objects` lists them)", set.objects.len()));
+            console::note(&format!("objects: found {} (no file of objects is given)", set.objects.len()));
         }
         print_up(&scene);
         Ok((scene, set))

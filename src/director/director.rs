@@ -4,7 +4,7 @@ use std::path::Path;
 
 use cinesplat_language::{
     Linked, Mention, NamedObject, Word, are_effect_phrases, blanked, check_prompt, is_no_thing, link_parts, part_of,
-    scenery, tokenize, without_arrows, without_camera_settings, without_dictation, without_frame_shape,
+    scenery, tokenize, without_arrows, without_behind, without_camera_settings, without_dictation, without_frame_shape,
     without_references, without_slate, without_tolerances,
 };
 use cinesplat_objects::{Object, only_whole};
@@ -131,6 +131,8 @@ impl Director {
         let prompt = &*without_camera_settings(prompt)?;
         let prompt = &*without_tolerances(prompt);
         let prompt = &*without_arrows(prompt);
+        let (prompt, behinds) = without_behind(prompt);
+        let prompt = &*prompt;
         let mut found = self.names.mentions(prompt, objects)?;
         found.retain(|found| !is_no_thing(prompt, &found.mention, objects));
         let mentions: Vec<Mention> = found.iter().map(|found| found.mention.clone()).collect();
@@ -180,7 +182,7 @@ impl Director {
         };
         let mut linked = Linked { scenery, acts, ..link_parts(prompt, &mentions, &part)? };
         name_nearest(prompt, &found, &mut linked);
-        Ok(linked.without_limits()?.without_backdrops())
+        Ok(linked.without_limits()?.without_backdrops(&behinds))
     }
 
     /// Ids of the objects that are inputs of the network: those that the prompt names, then the nearest others.

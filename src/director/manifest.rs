@@ -104,7 +104,7 @@ fn choices() -> Vec<String> {
     let passes = Pass::VARIANTS.iter().map(|choice| format!("{choice:?}"));
     let speeds = Speed::VARIANTS.iter().map(|choice| format!("{choice:?}"));
     let places = FramePlace::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
-    let sides = SubjectSide::VARIANTS.iter().map(|choice| choice.as_ref().to_owned());
+    let sides = SubjectSide::READ.iter().map(|choice| choice.as_ref().to_owned());
     let motions = read_motions().map(|motion| motion.as_ref().to_owned());
     let of_moves = moves.chain(sizes).chain(angles).chain(easings).chain(parts).chain(passes).chain(speeds);
     of_moves.chain(places).chain(sides).chain(motions).collect()

@@ -3,8 +3,43 @@
 //! Enters: a prompt without its limits. Leaves: what is seen behind what, and the words without these: to the network a background
 //! is a second subject.
 
+use std::borrow::Cow;
+
+use super::blanks::blanked;
 use super::linked::{Backdrop, Linked};
-use super::tokenizer::is_listed;
+use super::tokenizer::{Word, is_listed, tokenize, word_at};
+
+/// Words before the name of a background, and the most words of it.
+const ARTICLES: &str = "the a an my our your that this those these both its all";
+const MOST_WORDS: usize = 5;
+
+/// The prompt with `with the window behind it` as `, the window`, and the bytes at which the words behind the thing stood: in one
+/// piece they read as what tells one subject from another.
+pub fn without_behind(prompt: &str) -> (Cow<'_, str>, Vec<usize>) {
+    let words = tokenize(prompt);
+    let found: Vec<[usize; 3]> = (0..words.len()).filter_map(|at| behind_at(&words, at)).collect();
+    let ranges: Vec<[usize; 2]> = found
+        .iter()
+        .flat_map(|[with, behind, last]| [words[*with].span, [words[*behind].span[0], words[*last].span[1]]])
+        .collect();
+    let mut text = blanked(prompt, &ranges);
+    for [with, ..] in &found {
+        let [start, _] = words[*with].span;
+        text.to_mut().replace_range(start..=start, ",");
+    }
+    (text, found.iter().map(|[_, behind, _]| words[*behind].span[0]).collect())
+}
+
+/// Places of `with`, of `behind` and of the word after it, where the words from one on name a background so.
+fn behind_at(words: &[Word], at: usize) -> Option<[usize; 3]> {
+    let begins = word_at(words, at) == "with" && is_listed(ARTICLES, word_at(words, at + 1));
+    let behind = (at + 3..at + 4 + MOST_WORDS).find(|next| word_at(words, *next) == "behind").filter(|_| begins)?;
+    let is_name =
+        words[at + 2..behind].iter().all(|word| word.is_alphabetic() && word.text != "with" && word.text != "and");
+    let is_pronoun = is_listed("it them him her", word_at(words, behind + 1));
+    let ends = words.get(behind + 2).is_none_or(|next| is_listed(ENDS, &next.text));
+    (is_name && is_pronoun && ends).then_some([at, behind, behind + 1])
+}
 
 /// Words before a background, which say that the picture has it.
 const HAS: &str = "with having has have show shows showing see sees seeing and so until till ending ends keep keeping that's leaving leave \
@@ -74,10 +109,12 @@ const ENDS: &str = ". , ; : ! ? and then while as before but - ) until";
 
 impl Linked {
     /// The prompt without the words that say what is seen behind its subjects, and with that.
+    ///
+    /// `behinds` are the bytes that [`without_behind`] returns.
     #[must_use]
-    pub fn without_backdrops(self) -> Self {
+    pub fn without_backdrops(self, behinds: &[usize]) -> Self {
         let words: Vec<(&str, [usize; 2])> = self.words_in([0, usize::MAX]).collect();
-        let reader = Reader { linked: &self, words: &words };
+        let reader = Reader { linked: &self, words: &words, behinds };
         let (mut backdrops, mut bytes, mut at) = (Vec::new(), Vec::new(), 0);
         while at < words.len() {
             let Some(found) = reader.backdrop_at(at) else {
@@ -111,6 +148,8 @@ struct Found {
 struct Reader<'a> {
     linked: &'a Linked,
     words: &'a [(&'a str, [usize; 2])],
+    /// Bytes at which `behind it` stood.
+    behinds: &'a [usize],
 }
 
 impl Reader<'_> {
@@ -155,9 +194,13 @@ impl Reader<'_> {
         while is_listed(LOOKS, self.text(place)) && place - at <= 5 {
             place += 1;
         }
-        let end = self.after_one_of(place, BEHIND)?;
-        // `With the window behind the armchair`.
-        let of = self.thing(end).filter(|_| self.text(end - 1) == "behind");
+        let next = self.words.get(place).map_or(usize::MAX, |(_, span)| span[0]);
+        let is_behind = |byte: &usize| (self.words[place - 1].1[1]..next).contains(byte);
+        let stood = self.behinds.iter().any(is_behind).then_some(place);
+        let end = self.after_one_of(place, BEHIND).or(stood)?;
+        // `With the window behind the armchair`, of which something was said before.
+        let said = |id: &u32| (0..at).any(|before| self.thing(before) == Some(*id));
+        let of = self.thing(end).filter(|_| self.text(end - 1) == "behind").filter(said);
         let end = end + usize::from(of.is_some());
         // `Push past the chair, the lamp behind it and the desk` lists what is passed.
         let is_whole = self.ends_clause(end) && (of.is_some() || self.named_before(at).is_some());
@@ -182,5 +225,66 @@ impl Reader<'_> {
     /// The first of the words that join a background to what stands before it.
     fn first_word(&self, at: usize) -> usize {
         (0..at).rev().take_while(|before| is_listed(JOINS, self.text(*before))).last().unwrap_or(at)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The words that are left, and what is behind what; `<obj-0>` is object 5, `<obj-1>` object 7.
+    fn read(text: &str) -> (String, Vec<([u32; 1], [u32; 1])>) {
+        let words = text.split(' ');
+        let spans = words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1) + word.len()]));
+        let linked =
+            Linked { tokens_text: text.to_owned(), spans: spans.collect(), slots: vec![5, 7], ..Linked::default() };
+        let read = linked.without_backdrops(&[]);
+        let pairs = read.backdrops.iter().map(|backdrop| ([backdrop.ids[0]], [backdrop.of[0]])).collect();
+        (read.tokens_text, pairs)
+    }
+
+    #[test]
+    fn what_is_behind_a_subject_is_its_background() {
+        let behind = vec![([7], [5])];
+        for text in [
+            "push in on <obj-0> with <obj-1> behind it",
+            "push in on <obj-0> , <obj-1> soft in the background",
+            "push in on <obj-0> with <obj-1> as a backdrop",
+            "push in on <obj-0> , behind it you can see <obj-1>",
+            "push in on <obj-0> framed against <obj-1>",
+            "push in on <obj-0> until <obj-1> glows behind it",
+            "push in on <obj-0> with <obj-1> behind <obj-0>",
+        ] {
+            assert_eq!(read(text), ("push in on <obj-0>".to_owned(), behind.clone()), "{text}");
+        }
+        assert_eq!(read("<obj-0> , <obj-1> behind , pull back").0, "<obj-0> , pull back");
+    }
+
+    #[test]
+    fn a_background_behind_a_pronoun_is_no_description() {
+        let split = |text: &'static str| without_behind(text).0.into_owned();
+        assert_eq!(
+            split("push in on the chair with the tall window behind it"),
+            "push in on the chair ,    the tall window          "
+        );
+        assert_eq!(split("the cup with the tv glowing behind it."), "the cup ,    the tv glowing          .");
+        assert_eq!(without_behind("the cup with the tv behind it").1, [20]);
+        for text in ["go to the chair with the window behind it all", "the mug with a handle", "pan with the tv behind"]
+        {
+            assert_eq!(split(text), text);
+        }
+    }
+
+    #[test]
+    fn a_goal_or_what_stays_in_view_is_no_background() {
+        for text in [
+            "pan from <obj-0> to <obj-1> behind it",
+            "pull back from <obj-0> to reveal <obj-1> behind it",
+            "truck past <obj-0> with <obj-1> in the background the whole time",
+            "welcome them with <obj-1> out there behind <obj-0> and pan",
+            "push in with <obj-1> behind",
+        ] {
+            assert_eq!(read(text), (text.to_owned(), vec![]), "{text}");
+        }
     }
 }

@@ -127,6 +127,7 @@ mod tolerances;
 mod turned_ways;
 mod unknown;
 
+pub use backdrops::without_behind;
 pub use blanks::blanked;
 pub use chain::without_arrows;
 pub use dictation::without_dictation;

@@ -22,7 +22,7 @@ const TERMS: &str = "axis axes objective constraint constraints sensor gimbal go
 /// Words beside such a term.
 const BESIDE: &str = "of the a an his her full exact side left right its each every all any none of both this that next last first no optical";
 /// What comes before `plate` where it is a piece of film.
-const PLATES: &str = "reference background clean back empty bg vfx still";
+const PLATES: &str = "beauty hero reference background clean back empty bg vfx still";
 
 /// Verbs of somebody who corrects himself, before `that`.
 const TAKEN_BACK: &str = "scratch strike forget cancel delete undo scrap ignore make";
@@ -50,9 +50,13 @@ fn is_mere(words: &[Word], end: usize) -> bool {
 
 /// Whether a mention is the portrait that a film is of something: `portrait of the bust`.
 fn is_portrait(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
-    let is_whole = words[first..end].iter().all(|word| is_listed("a the portrait portraits", &word.text));
+    // The name of what it is of may belong to the mention.
+    let of = (first..end).find(|at| word_at(words, *at) == "of").unwrap_or(end);
+    let is_portrait = words[first..of]
+        .iter()
+        .all(|word| is_listed("a the little small nice short quick proper portrait portraits", &word.text));
     let is_named = |object: &NamedObject| object.label.to_lowercase().contains("portrait");
-    is_whole && word_at(words, end) == "of" && !objects.iter().any(is_named)
+    is_portrait && first < of && word_at(words, of) == "of" && !objects.iter().any(is_named)
 }
 
 /// Whether a mention names no thing: its words are the colors of a look or a term of the trade.
@@ -91,6 +95,33 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
         || is_count(&words, [first, end])
         || is_floor(&words, [first, end], objects)
         || is_likeness(&words, [first, end], objects)
+        || is_of_other_work(&words, [first, end], objects)
+        || is_control(&words, [first, end], objects)
+}
+
+/// What people make or keep that is about a thing: `my toaster ad`, `the guitar channel`.
+const WORKS: &str = "ad ads advert adverts advertisement commercial commercials channel blog vlog podcast newsletter brand business \
+    company empire club forum";
+
+/// A thing that only says what a work is about, where the scene has none of that name.
+fn is_of_other_work(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
+    let owner = first.checked_sub(1).map_or(word_at(words, first), |before| word_at(words, before));
+    let is_owned = is_listed(OWNERS, owner) || is_listed(OWNERS, word_at(words, first));
+    let names = &words[first..end];
+    let is_work =
+        is_listed(WORKS, word_at(words, end)) || names.last().is_some_and(|last| is_listed(WORKS, &last.text));
+    is_owned && is_work && !names.iter().any(|word| is_called(objects, word))
+}
+
+/// What a game or an editor is controlled with, and words of what is done with it.
+const CONTROLS: &str = "mouse keyboard joystick gamepad controller thumbstick key keys wasd";
+const CONTROLLED: &str = "untouched still held pressed released down idle alone up only off";
+
+/// `A key held down, mouse untouched`: what somebody plays with, where the scene has none.
+fn is_control(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
+    let names = words[first..end].iter().filter(|word| !is_listed(OWNERS, &word.text));
+    let is_all = names.clone().all(|word| is_listed(CONTROLS, &word.text) && !is_called(objects, word));
+    names.count() > 0 && is_all && is_listed(CONTROLLED, word_at(words, end))
 }
 
 /// Who somebody is before the noun: `I'm the cat`, `imagine you're our cat`.
@@ -113,7 +144,18 @@ fn is_likeness(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]
     let before = if article == 1 { first } else { first.saturating_sub(1) };
     let owner = word_at(words, before);
     let text = |back: usize| before.checked_sub(back).map_or("", |at| word_at(words, at));
-    let is_compared = text(1) == "like" && matches!(owner, "a" | "an") && !is_listed("look looks looking", text(2));
+    let is_like = text(1) == "like" && !is_listed("look looks looking", text(2));
+    // `The way an accordion does`, `as a butler would`.
+    let is_way = matches!(text(1), "way" | "as" | "how") && is_listed("does would do did might", word_at(words, end));
+    let is_compared = (is_like || is_way) && matches!(owner, "a" | "an");
+    // `The way an accordion does`, all of it.
+    let is_whole_way = word_at(words, first) == "way"
+        && matches!(word_at(words, first + 1), "a" | "an")
+        && is_listed("does would do did might", word_at(words, end))
+        && !words[first + 2..end].iter().any(|word| is_called(objects, word));
+    if is_whole_way {
+        return true;
+    }
     let is_persona = is_listed(OWNERS, owner) && PERSONAS.contains(&[text(2), text(1)]);
     noun < end && (is_compared || is_persona) && !words[noun..end].iter().any(|word| is_called(objects, word))
 }

@@ -96,7 +96,9 @@ pub fn read_boxes(path: &Path) -> Result<Vec<Object>, ObjectsError> {
 fn json_of(path: &Path) -> Result<Value, ObjectsError> {
     let bytes = cinesplat_files::read(path, Limits::DEFAULT.text_bytes)?;
     let bad = |reason: String| ObjectsError::NotJson { path: path.to_owned(), reason };
-    json_excess(&bytes, &Limits::DEFAULT).map_or(Ok(()), |excess| Err(bad(excess)))?;
+    // Of what is no JSON, such as a scene, the parser says so.
+    let begins = bytes.iter().find(|byte| !byte.is_ascii_whitespace()).is_some_and(|byte| matches!(byte, b'{' | b'['));
+    json_excess(&bytes, &Limits::DEFAULT).filter(|_| begins).map_or(Ok(()), |excess| Err(bad(excess)))?;
     serde_json::from_slice(&bytes).map_err(|error| bad(error.to_string()))
 }
 

@@ -36,6 +36,8 @@ impl Renaming {
     /// # Errors
     /// The number of the first other line that is no `ID=NAME`, and what was expected.
     pub fn parse_lines(text: &str) -> Result<Vec<Self>, String> {
+        // Editors of Windows begin a text with this mark.
+        let text = text.strip_prefix('\u{feff}').unwrap_or(text);
         let lines = text.lines().enumerate().map(|(i, line)| (i + 1, line.trim()));
         let named = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
         named.map(|(number, line)| line.parse().map_err(|error| format!("line {number}: {error}"))).collect()

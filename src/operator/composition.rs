@@ -105,6 +105,8 @@ pub(super) fn side_azimuths(world: &World, center: DVec3, side: SubjectSide) -> 
         SubjectSide::FromLeft => vec![front + quarter],
         SubjectSide::FromRight => vec![front - quarter],
         SubjectSide::FromSide => vec![front + quarter, front - quarter],
+        SubjectSide::FromFrontQuarter => vec![front + 0.5 * quarter, front - 0.5 * quarter],
+        SubjectSide::FromBackQuarter => vec![front + 1.5 * quarter, front - 1.5 * quarter],
     }
 }
 
@@ -112,8 +114,11 @@ pub(super) fn side_azimuths(world: &World, center: DVec3, side: SubjectSide) -> 
 /// about the same way, as the foot of a bed does.
 pub(super) fn square_azimuths(world: &World, target: &Target, side: SubjectSide) -> Vec<f64> {
     let middles = side_azimuths(world, target.center, side);
+    let is_between = matches!(side, SubjectSide::FromFrontQuarter | SubjectSide::FromBackQuarter);
     let subject = target.ids.first().and_then(|id| world.subject(*id));
-    let Some(subject) = subject.filter(|_| world.known_front(target.center).is_none()) else { return middles };
+    let Some(subject) = subject.filter(|_| !is_between && world.known_front(target.center).is_none()) else {
+        return middles;
+    };
     let [long, short] = subject.level_axes(world.frame.up);
     let ways: Vec<f64> = [long, -long, short, -short]
         .into_iter()
@@ -129,16 +134,21 @@ pub(super) fn square_azimuths(world: &World, target: &Target, side: SubjectSide)
 }
 
 /// Azimuths from which the camera stands where a framing says: on the stated side, or opposite the backdrop. `None` where it
-/// says neither, and where the backdrop is straight above or below.
-pub(super) fn stated_azimuths(world: &World, target: &Target, framing: &Framing) -> Option<Vec<f64>> {
+/// says neither, and where the backdrop is straight above or below. The second value is how far beside them it may stand.
+pub(super) fn stated_azimuths(world: &World, target: &Target, framing: &Framing) -> Option<(Vec<f64>, f64)> {
     if let Some(side) = framing.side {
-        return Some(square_azimuths(world, target, side));
+        return Some((square_azimuths(world, target, side), BESIDE_SIDE_RAD));
     }
     let objects = framing.backdrop.iter().filter_map(|&id| world.subject(id));
     let ways: Vec<DVec3> = objects.map(|object| world.frame.horizontal(target.center - object.center)).collect();
     let way = ways.iter().map(|way| way.normalize_or_zero()).sum::<DVec3>();
-    (way.length() > 1e-6).then(|| vec![world.frame.azimuth(way)])
+    (way.length() > 1e-6).then(|| (vec![world.frame.azimuth(way)], BESIDE_BACKDROP_RAD))
 }
+
+/// How far beside the middle of a stated side a view is sought, and beside that before a backdrop, which the subject hides in
+/// the middle; radians.
+const BESIDE_SIDE_RAD: f64 = 0.21;
+const BESIDE_BACKDROP_RAD: f64 = 0.65;
 
 /// Largest angle between the middle of a side and the box's own side for which the camera stands before that, radians.
 const SQUARE_RAD: f64 = 0.56;

@@ -83,7 +83,7 @@ pub(super) enum ConstraintKind {
     CameraHeight((f64, f64)),
     /// Vertical field of view is in this range, degrees.
     FieldOfView((f64, f64)),
-    /// The camera's azimuth about the target's first subject is within [`SIDE_TOLERANCE_DEG`] of a side.
+    /// The camera's azimuth about the target's first subject is on a side, within [`side_tolerance_deg`].
     FromSide(Target, SubjectSide),
     /// At most this share of all points of the subject is in the frame and visible.
     Unseen(u32, f64),
@@ -123,8 +123,17 @@ pub(super) const FOREGROUND_OFF: f64 = 1.0 / 6.0;
 /// Least share of a backdrop in the frame, and its largest distance beside its subject, over the frame's width.
 pub(super) const BACKDROP_FRAC: f64 = 0.4;
 pub(super) const BACKDROP_OFF: f64 = 0.5;
-/// Angle from the middle of a side that counts as that side, degrees.
-pub(super) const SIDE_TOLERANCE_DEG: f64 = 40.0;
+/// Angle from the middle of a side that counts as that side, and from half way between two sides, degrees.
+const SIDE_TOLERANCE_DEG: f64 = 40.0;
+const QUARTER_TOLERANCE_DEG: f64 = 20.0;
+/// Angle from the middle of a side, or of a place between two, that counts as there, degrees.
+pub(super) fn side_tolerance_deg(side: SubjectSide) -> f64 {
+    match side {
+        SubjectSide::FromFrontQuarter | SubjectSide::FromBackQuarter => QUARTER_TOLERANCE_DEG,
+        _ => SIDE_TOLERANCE_DEG,
+    }
+}
+
 /// Share of a segment on which a camera that looks along its path must do so; on the rest it may turn to its goal.
 pub(super) const AHEAD_FRAC: f64 = 0.7;
 

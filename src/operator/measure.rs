@@ -4,7 +4,8 @@ use glam::{DVec2, DVec3};
 
 use super::composition::{frame_place, off_side_deg};
 use super::constraint::{
-    AHEAD_FRAC, BACKDROP_FRAC, BACKDROP_OFF, Constraint, ConstraintKind, FOREGROUND_OFF, PLACE_TOLERANCE, SIDE_TOLERANCE_DEG, Scope, TravelDirection,
+    AHEAD_FRAC, BACKDROP_FRAC, BACKDROP_OFF, Constraint, ConstraintKind, FOREGROUND_OFF, PLACE_TOLERANCE, Scope,
+    TravelDirection, side_tolerance_deg,
 };
 use super::framing::{
     Target, bearing_of, extent_frac, frame_position, in_frame_frac, off_center, seen_frac, unoccluded_frac,
@@ -113,7 +114,7 @@ fn composed(world: &World, kind: &ConstraintKind, state: &CameraState, num_point
         }
         ConstraintKind::FieldOfView(band) => range_violation(state.fov_y_rad.to_degrees(), *band, 10.0),
         ConstraintKind::FromSide(target, side) => {
-            range_violation(off_side_deg(world, target.center, position, *side), (0.0, SIDE_TOLERANCE_DEG), 40.0)
+            range_violation(off_side_deg(world, target.center, position, *side), (0.0, side_tolerance_deg(*side)), 40.0)
         }
         ConstraintKind::Unseen(id, most) => {
             let share = world.subject(*id).map_or(0.0, |subject| seen_frac(world, state, subject, num_points));

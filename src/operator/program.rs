@@ -293,7 +293,8 @@ pub enum Lens {
 
 /// Side of a subject from which the camera sees it. The front of a subject faces the middle of the scene (the best
 /// viewpoint, where the subject itself is in the middle); left and right are those of somebody who sees the front. A camera
-/// is on a side where its azimuth about the subject's center is within 40 degrees of the middle of that side.
+/// is on a side where its azimuth about the subject's center is within 40 degrees of the middle of that side, and between two
+/// sides where it is within 20 degrees of 45 degrees from both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
 #[derive(strum::VariantArray, strum::VariantNames)]
@@ -309,6 +310,15 @@ pub enum SubjectSide {
     FromRight,
     /// In profile, from its left or right.
     FromSide,
+    /// A three-quarter view: from half way between its front and a side.
+    FromFrontQuarter,
+    /// From half way between its back and a side.
+    FromBackQuarter,
+}
+
+impl SubjectSide {
+    /// The sides that the network reads; the others are read from the words.
+    pub const READ: [Self; 5] = [Self::FromFront, Self::FromBack, Self::FromLeft, Self::FromRight, Self::FromSide];
 }
 
 /// Place in the frame of the point that the camera aims at: the subject's center, unless a part of it is named. Thirds are

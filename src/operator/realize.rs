@@ -184,7 +184,8 @@ fn solution(
     let is_clear = clearance.failure.is_none_or(|failure| failure.distance >= least);
     let stays = captured >= SAFE_CAPTURED_FRAC || !world.is_indoor();
     let leaves = captured < if is_clear { OUTSIDE_FRAC } else { THROUGH_WALL_FRAC };
-    let is_lost = world.is_indoor() && most_void(world, &path, flow.secs()) > LOST_VOID;
+    // Who asks for a turn all the way round asks for what lies behind the camera too.
+    let is_lost = world.is_indoor() && !turns_round(program) && most_void(world, &path, flow.secs()) > LOST_VOID;
     let leaves_room = world.is_indoor() && leaves || is_lost;
     let squeezes = || segments.iter().any(|segment| squeezes(world, program, segment));
     let is_safe = is_clear && stays && !is_lost && !squeezes();
@@ -210,6 +211,17 @@ fn solution(
 /// Void of a picture of a room from which on a film shows nothing, and the pictures of a film that are looked at.
 const LOST_VOID: f64 = 0.85;
 const NUM_PICTURES: u32 = 9;
+
+/// Least angle of a turn on the spot that looks all the way round, degrees.
+const ROUND_DEG: f64 = 150.0;
+
+/// Whether the words ask for a turn on the spot that looks all the way round.
+fn turns_round(program: &Program) -> bool {
+    program.steps.iter().any(|step| {
+        let is_far = matches!(step.amount, Some(Amount::Degrees(degrees)) if degrees >= ROUND_DEG);
+        matches!(step.movement, Move::PanLeft | Move::PanRight) && is_far
+    })
+}
 
 /// Void of the emptiest picture of a film.
 fn most_void(world: &World, path: &CameraPath, secs: f64) -> f64 {

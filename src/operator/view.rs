@@ -130,7 +130,7 @@ pub(super) fn opening_view(
 ) -> CameraState {
     let proposed = suggestion.map(|cameras| bearing_of(world, target.aim, cameras.start.pose.position));
     let azimuth_rad = match stated_azimuths(world, target, framing) {
-        Some(azimuths_rad) => beside(&azimuths_rad, parameters),
+        Some((azimuths_rad, spread_rad)) => beside(&azimuths_rad, spread_rad, parameters),
         None => azimuth(range, proposed, parameters),
     };
     let elevation_deg = match framing.angle {
@@ -293,10 +293,10 @@ pub(super) fn picked<T>(list: &[T], share: f64) -> Option<&T> {
     list.get(((share * list.len() as f64) as usize).min(list.len().saturating_sub(1)))
 }
 
-/// One of several azimuths, or up to 12 degrees beside it. Parameter 4 picks it, parameter 0 the deviation.
-pub(super) fn beside(azimuths_rad: &[f64], parameters: &StepParameters) -> f64 {
+/// One of several azimuths, or up to an angle beside it. Parameter 4 picks it, parameter 0 the deviation.
+pub(super) fn beside(azimuths_rad: &[f64], spread_rad: f64, parameters: &StepParameters) -> f64 {
     let off = parameters[0] * 2.0 - 1.0;
-    picked(azimuths_rad, parameters[4]).copied().unwrap_or(0.0) + off * off.abs() * 0.21
+    picked(azimuths_rad, parameters[4]).copied().unwrap_or(0.0) + off * off.abs() * spread_rad
 }
 
 /// A preferred azimuth or any azimuth. The director's counts twice among the preferred ones.

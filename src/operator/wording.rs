@@ -1,7 +1,9 @@
 //! Constraints in words.
 
 use super::composition::place_words;
-use super::constraint::{BACKDROP_OFF, Constraint, ConstraintKind, FOREGROUND_OFF, PLACE_TOLERANCE, SIDE_TOLERANCE_DEG, Scope};
+use super::constraint::{
+    BACKDROP_OFF, Constraint, ConstraintKind, FOREGROUND_OFF, PLACE_TOLERANCE, Scope, side_tolerance_deg,
+};
 use super::passage::STANDING_FRAC;
 use super::program::Pass;
 use super::simultaneous::extent_words;
@@ -59,7 +61,8 @@ fn composition_wording(kind: &ConstraintKind, names: &dyn Fn(&[u32]) -> String) 
         ConstraintKind::CameraHeight(band) => format!("camera above the floor {}", range(*band)),
         ConstraintKind::FieldOfView((low, high)) => format!("vertical field of view {low:.1} to {high:.1} degrees"),
         ConstraintKind::FromSide(target, side) => {
-            format!("{} seen {} within {SIDE_TOLERANCE_DEG:.0} degrees", names(&target.ids), spaced(side.as_ref()))
+            let tolerance = side_tolerance_deg(*side);
+            format!("{} seen {} within {tolerance:.0} degrees", names(&target.ids), spaced(side.as_ref()))
         }
         ConstraintKind::Unseen(id, most) => format!("visible share of {} at most {most:.2}", names(&[*id])),
         ConstraintKind::LookAt(_, what, most) => format!("look at {what}, within {most:.2} of the frame's middle"),

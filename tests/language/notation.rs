@@ -7,7 +7,7 @@ use cinesplat::trajectory::{Easing, Move, ShotAngle, ShotSize};
 
 #[test]
 fn every_token_of_a_step_is_parsed_and_printed() {
-    let text = "orbit-left with=crane-up+zoom-in start=3+5:long:40%:low:30deg:h1.6u:d0.5u:35mm:from-back:at-upper-left! end=3:close-up:wide-lens:top:hidden between=1+2 look=4 keep=6+7 avoid=8 amount=45deg dur=2.5s slow ease=ease-in cut returns either | total=8s no=zoom+roll+rise";
+    let text = "orbit-left with=crane-up+zoom-in start=3+5:long:40%:low:30deg:h1.6u:d0.5u:35mm:from-back:at-upper-left:before-4:before-9! end=3:close-up:wide-lens:top:hidden between=1+2 look=4 keep=6+7 avoid=8 amount=45deg dur=2.5s slow ease=ease-in cut returns either | total=8s no=zoom+roll+rise";
     let step = Step {
         with: vec![Move::CraneUp, Move::ZoomIn],
         either_way: true,
@@ -25,6 +25,7 @@ fn every_token_of_a_step_is_parsed_and_printed() {
             side: Some(SubjectSide::FromBack),
             place: Some(FramePlace::AtUpperLeft),
             hidden: false,
+            backdrop: vec![4, 9],
         },
         end: Framing {
             subjects: vec![3],

@@ -6,6 +6,7 @@ mod boxes;
 mod by_name;
 mod cloud;
 mod delaunay;
+mod editing;
 mod file;
 mod find;
 mod lifting;

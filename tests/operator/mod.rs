@@ -1,5 +1,6 @@
 //! The operator on a small synthetic room.
 
+mod backdrops;
 mod clearance;
 mod composition;
 mod crowded;

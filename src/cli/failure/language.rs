@@ -1,4 +1,5 @@
 use cinesplat::language::LanguageError;
+use cinesplat::objects::is_description;
 
 use super::exit::Exit;
 use super::message::Failure;
@@ -18,6 +19,13 @@ impl From<LanguageError> for Failure {
             }
             E::UnknownObject { nearest, .. } if nearest.is_empty() => {
                 (Exit::BadData, "the scene has no named objects: list them with `cinesplat objects SCENE`".to_owned())
+            }
+            E::UnknownObject { name, nearest } if nearest.iter().all(|label| is_description(label)) => {
+                let objects = "its objects have no names yet: `cinesplat objects SCENE -o objects.json --sheet objects.html` shows them";
+                (
+                    Exit::BadData,
+                    format!("{objects}, `--name ID={name}` names one, and `--objects objects.json` reads the file"),
+                )
             }
             E::UnknownObject { nearest, .. } => (Exit::BadData, format!("nearest names: {}", nearest.join(", "))),
             E::TooManyObjects { .. } => (Exit::BadData, "split the prompt into several shots".to_owned()),

@@ -49,7 +49,7 @@ fn framing(code: &KeyCode, end: &FramingEnd, grounding: &Grounding) -> Framing {
         height,
         distance,
         lens: lens(lens_kind, lens_value),
-        side: optional(SubjectSide::VARIANTS, side),
+        side: optional(&SubjectSide::READ, side),
         place: optional(FramePlace::VARIANTS, place),
         hidden: hidden == 1,
         // Backgrounds are read from the words.

@@ -56,7 +56,7 @@ fn encode_framing(framing: &Framing, end: &FramingEnd, grounding: &Grounding, co
         class_of(SubjectPart::VARIANTS, framing.part),
         u8::from(framing.whole),
         lens,
-        optional_class(SubjectSide::VARIANTS, framing.side),
+        optional_class(&SubjectSide::READ, framing.side.filter(|side| SubjectSide::READ.contains(side))),
         optional_class(FramePlace::VARIANTS, framing.place),
         u8::from(framing.hidden),
     ];

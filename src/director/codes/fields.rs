@@ -173,7 +173,7 @@ impl Field {
             | Self::NoShake
             | Self::NoCut => 2,
             Self::Look | Self::ArriveLens | Self::DepartLens => 5,
-            Self::ArriveSide | Self::DepartSide => 1 + SubjectSide::VARIANTS.len(),
+            Self::ArriveSide | Self::DepartSide => 1 + SubjectSide::READ.len(),
             Self::ArrivePlace | Self::DepartPlace => 1 + FramePlace::VARIANTS.len(),
             Self::Via => 1 + Pass::VARIANTS.len(),
             Self::Amount => 4,

@@ -8,7 +8,8 @@ use cinesplat_trajectory::Move;
 /// begins with that subject.
 pub(crate) fn set_backdrops(linked: &Linked, steps: &mut [Step]) {
     for backdrop in &linked.backdrops {
-        let said_of = steps.iter().rposition(|step| step.words.is_none_or(|[from, _]| from <= backdrop.at)).unwrap_or(0);
+        let said_of =
+            steps.iter().rposition(|step| step.words.is_none_or(|[from, _]| from <= backdrop.at)).unwrap_or(0);
         let order = (0..=said_of).rev().chain(said_of + 1..steps.len());
         let shows = |step: &Step| shows(&step.end, backdrop) || shows(&step.start, backdrop);
         let nth = order.clone().find(|nth| steps.get(*nth).is_some_and(shows)).unwrap_or(said_of);

@@ -2,6 +2,7 @@
 
 use cinesplat_language::Linked;
 use cinesplat_operator::{Motion, Program, Step};
+use cinesplat_trajectory::Move;
 
 use super::directions::is_form;
 
@@ -35,6 +36,25 @@ pub(crate) fn drop_misplaced_bans(linked: &Linked, program: &mut Program) {
         asking.all(|step| places.iter().any(|place| !belongs_to_other(steps, step, *place)))
     };
     program.forbidden.retain(stays);
+}
+
+/// Ways of the camera that words ask for by name.
+const WAYS: [&str; 8] = ["truck", "dolly", "track", "crane", "walk", "crawl", "strafe", "slide"];
+
+/// Takes back a ban of travel that the words say of a turn, where another step travels by name or by a length: `pan right with
+/// your feet planted. Then truck left a metre`.
+pub(crate) fn keep_travel_bans_to_turns(linked: &Linked, program: &mut Program) {
+    let turns =
+        program.steps.iter().any(|step| [Motion::Pan, Motion::Tilt].iter().any(|motion| asks_for(step, *motion)));
+    let travels = |step: &Step| {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_denied = |at: usize| words[..at].iter().rev().take(3).any(|word| BANS.contains(word));
+        let is_named = (0..words.len()).any(|at| WAYS.iter().any(|verb| is_form(words[at], verb)) && !is_denied(at));
+        Motion::of(step.movement).is_none() && step.movement != Move::Static && is_named
+    };
+    if turns && program.steps.iter().any(travels) {
+        program.forbidden.retain(|motion| *motion != Motion::Travel);
+    }
 }
 
 /// Whether one of a step's moves is such a motion.

@@ -10,6 +10,7 @@ mod called;
 mod carriers;
 mod circles;
 mod contents;
+mod denied;
 mod directions;
 mod dolly_zoom;
 mod encores;
@@ -303,5 +304,9 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     named_times::take_named_times(linked, &mut direction.program);
     named_times::merge_named_speeds(linked, direction);
     fixed::lock_off(linked, &mut direction.program.steps);
+    denied::drop_denied(linked, direction);
+    sides::see_obliquely(linked, &mut direction.program.steps);
+    relative::level_lifts(&mut direction.program);
+    bans::keep_travel_bans_to_turns(linked, &mut direction.program);
     backdrops::set_backdrops(linked, &mut direction.program.steps);
 }

@@ -2,7 +2,7 @@
 //! so`, `tilt from the floor up`, `stop on the red one`.
 
 use cinesplat_language::{Linked, Quantity, QuantityKind, is_listed};
-use cinesplat_operator::{Amount, FramePlace, Framing, Pass, Step, SubjectPart, Via};
+use cinesplat_operator::{Amount, FramePlace, Framing, Look, Motion, Pass, Program, Step, SubjectPart, Via};
 use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::directions::is_form;
@@ -179,6 +179,7 @@ pub(crate) fn rise_from_low(steps: &mut [Step]) {
 
 /// Leaves out that a way passes what it begins at: `begin on the pillows, ease across the bed toward the window`.
 pub(crate) fn begin_at_passed(steps: &mut [Step]) {
+    rise_from_passed(steps);
     for step in steps.iter_mut().filter(|step| step.movement == Move::PushIn) {
         let starts = &step.start.subjects;
         let other = step.end.subjects.iter().all(|id| !starts.contains(id)) && !step.end.subjects.is_empty();
@@ -187,6 +188,34 @@ pub(crate) fn begin_at_passed(steps: &mut [Step]) {
         };
         if other {
             step.via.take_if(passes);
+        }
+    }
+}
+
+/// Begins a rise or a descent at what it passes on the way to something else: `up past the drawers until the knives are in the
+/// middle`.
+fn rise_from_passed(steps: &mut [Step]) {
+    let Some(step) = steps.first_mut() else { return };
+    let rises = matches!(step.movement, Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown);
+    let is_open = step.start == Framing::default() && step.look.is_none();
+    let passed = step.via.take_if(|via| {
+        let leads_on = !step.end.subjects.is_empty() && via.objects.iter().all(|id| !step.end.subjects.contains(id));
+        rises && is_open && leads_on && via.how == Pass::Past
+    });
+    if let Some(via) = passed {
+        step.start.subjects = via.objects;
+    }
+}
+
+/// Looks straight ahead, and turns nowhere, on a way straight up or down: `down like a lift, the camera facing dead ahead`.
+pub(crate) fn level_lifts(program: &mut Program) {
+    let [step] = &mut program.steps[..] else { return };
+    let is_lift = matches!(step.movement, Move::PedestalUp | Move::PedestalDown) && step.with.is_empty();
+    if is_lift && step.look == Some(Look::Ahead) {
+        step.look = None;
+        if !program.forbidden.contains(&Motion::Turn) {
+            program.forbidden.push(Motion::Turn);
+            program.forbidden.sort_unstable();
         }
     }
 }

@@ -62,6 +62,26 @@ pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Sees a subject from between two sides where the words say so: `a three-quarter view` reads `from the front quarterwise`.
+pub(crate) fn see_obliquely(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| linked.texts_in(step.words.unwrap_or_default()).contains(&"quarterwise"))
+    {
+        for framing in [&mut step.start, &mut step.end] {
+            framing.side = framing.side.map(|side| match side {
+                SubjectSide::FromFront => SubjectSide::FromFrontQuarter,
+                SubjectSide::FromBack => SubjectSide::FromBackQuarter,
+                other => other,
+            });
+        }
+        let is_open = [&step.start, &step.end].iter().all(|framing| framing.side.is_none());
+        if is_open && !step.movement.is_circular() {
+            let is_first = step.end.subjects.is_empty() && !step.start.subjects.is_empty();
+            let framing = if is_first { &mut step.start } else { &mut step.end };
+            framing.side = Some(SubjectSide::FromFrontQuarter);
+        }
+    }
+}
+
 /// Whether words are about a view from the back.
 fn is_from_behind(words: &[&str]) -> bool {
     let behind = |at: usize| words[at] == "behind" || matches!(words[at], "back" | "rear") && words[at - 1] == "the";

@@ -48,6 +48,8 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     let (first, last) = within_capture(context, &target, (first, last), inward);
     let taken_in = takes_in(context, inward);
     let last = taken_in.map_or(last, |end| settled_on(context, [&first, &last], &target, end));
+    let (last, is_lowered) =
+        if inward || taken_in.is_some() { (last, false) } else { lowered_to_room(context, &target, last) };
     let segment = context.segment(vec![first, last]);
     let wanted = if inward { (0.0, 0.76) } else { (1.32, f64::INFINITY) };
     let subtle = matches!(context.step.amount, Some(Amount::Slight | Amount::Units(_) | Amount::Factor(_)));
@@ -55,6 +57,7 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
         if subtle { segment } else { segment.requiring(Scope::All, ConstraintKind::DistanceRatio(target.aim, wanted)) };
     let segment = match taken_in {
         Some(end) => segment.requiring(Scope::End, ConstraintKind::Centered(end.clone(), 0.2)),
+        None if is_lowered => segment.requiring(Scope::Start, ConstraintKind::Centered(target.clone(), 0.17)),
         None => segment.requiring(Scope::All, ConstraintKind::Centered(target.clone(), 0.17)),
     };
     let mut segment = context.constrained_at_end(context.constrained_at_start(segment));
@@ -184,6 +187,28 @@ fn settled_on(context: &StepContext, [first, last]: [&CameraState; 2], left: &Ta
     let nearer = (0..=13).map(|i| turned(&moved(first, way * share(i)))).find(is_whole);
     nearer.map_or_else(|| turned(last), |view| with_fov(&view, last.fov_y_rad))
 }
+
+/// The end of a pull-out to the room from something high on a wall: it tilts down as far as that stays in the picture, so that
+/// the room is seen, and not the wall. Whether it does.
+fn lowered_to_room(context: &StepContext, left: &Target, last: CameraState) -> (CameraState, bool) {
+    let world = context.world;
+    let height = world.height_above_floor(left.aim);
+    let goal = ROOM_AIM_EYES * world.eye_height();
+    if !context.backs_to_room() || height <= world.eye_height() * HIGH_EYES || context.forbids_turning() {
+        return (last, false);
+    }
+    let lowered = |i: u32| {
+        let share = 1.0 - f64::from(i) / 10.0;
+        aimed(world, &last, left.aim - world.frame.up * ((height - goal) * share))
+    };
+    let holds = |state: &CameraState| in_frame_frac(world, state, &left.corners, 0.04) >= 1.0;
+    (0..10).map(lowered).find(holds).map_or((last, false), |view| (view, true))
+}
+
+/// Height above the floor at which the picture of a room is aimed, and from which on a thing is high, over that of a standing
+/// person's eyes.
+const ROOM_AIM_EYES: f64 = 0.55;
+const HIGH_EYES: f64 = 0.85;
 
 /// Largest turn of a pull-out to what it takes in, radians.
 const MOST_SETTLING_RAD: f64 = 0.8;

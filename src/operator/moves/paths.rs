@@ -109,7 +109,7 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
     let framing = &context.step.end;
     let wall_front_rad = wall_front(context, end);
     let azimuth_rad = match stated_azimuths(world, end, framing) {
-        Some(stated) => nearest(&stated, near.azimuth_rad) + spread(parameters[5]) * 0.21,
+        Some((stated, beside_rad)) => nearest(&stated, near.azimuth_rad) + spread(parameters[5]) * beside_rad,
         None => match wall_front_rad {
             // What hangs on a wall or is part of it is looked at from its front.
             Some(front_rad) => front_rad + spread(parameters[5]) * 0.5,

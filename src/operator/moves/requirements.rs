@@ -48,6 +48,7 @@ pub(super) fn require(context: &StepContext, segments: &mut [MotionSegment]) {
         hide(own, &step.start, Scope::Start);
         hide(own, &step.end, Scope::End);
         leave_frame(context, own);
+        add(own, Scope::End, closed_in_on(context));
         add(own, Scope::All, passages(step.via.as_ref().filter(|_| !skims(context))));
         require_shoulder(context, own);
     }
@@ -122,6 +123,17 @@ fn hide(segment: &mut MotionSegment, framing: &Framing, scope: Scope) {
         constraint.scope = other;
     }
 }
+
+/// What a slide whose lens closes in on it ends on lies near the middle.
+fn closed_in_on(context: &StepContext) -> Vec<ConstraintKind> {
+    let step = context.step;
+    let slides = matches!(step.movement, Move::TruckLeft | Move::TruckRight) && step.with.contains(&Move::ZoomIn);
+    let is_open = step.end.place.is_none() && !step.end.hidden && !step.end.subjects.is_empty();
+    if slides && is_open { vec![ConstraintKind::Centered(context.main_target(), CLOSED_IN_OFF)] } else { Vec::new() }
+}
+
+/// Largest distance from the frame's middle of what a slide closes in on.
+const CLOSED_IN_OFF: f64 = 0.22;
 
 /// Where a slide or a turn ends without a subject, that has left the frame: the camera does not hide behind something.
 fn leave_frame(context: &StepContext, segment: &mut MotionSegment) {
