@@ -162,7 +162,7 @@ impl Args {
             EditError::Unknown(id) => no_such_object(id, set),
             EditError::PartOf { part, whole } => {
                 let found = format!("--merge {part},{whole}: {error}, expected the whole first");
-                Failure::new("OBJ-MERGE", found, &format!("--merge {whole},{part}"), Exit::BadData)
+                Failure::new("OBJ-MERGE", found, format!("--merge {whole},{part}"), Exit::BadData)
             }
         };
         for Ids(ids) in &self.merge {

@@ -134,7 +134,7 @@ impl Linked {
         }
         let rest = self.without(&bytes, None);
         let Self { limits, acts, scenery, warnings, .. } = self;
-        Self { backdrops, limits, acts, scenery, warnings, ..rest }
+        Self { acts, limits, backdrops, scenery, warnings, ..rest }
     }
 }
 
@@ -233,19 +233,19 @@ mod tests {
     use super::*;
 
     /// The words that are left, and what is behind what; `<obj-0>` is object 5, `<obj-1>` object 7.
-    fn read(text: &str) -> (String, Vec<([u32; 1], [u32; 1])>) {
+    fn read(text: &str) -> (String, Vec<[u32; 2]>) {
         let words = text.split(' ');
         let spans = words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1) + word.len()]));
         let linked =
             Linked { tokens_text: text.to_owned(), spans: spans.collect(), slots: vec![5, 7], ..Linked::default() };
         let read = linked.without_backdrops(&[]);
-        let pairs = read.backdrops.iter().map(|backdrop| ([backdrop.ids[0]], [backdrop.of[0]])).collect();
+        let pairs = read.backdrops.iter().map(|backdrop| [backdrop.ids[0], backdrop.of[0]]).collect();
         (read.tokens_text, pairs)
     }
 
     #[test]
     fn what_is_behind_a_subject_is_its_background() {
-        let behind = vec![([7], [5])];
+        let behind = vec![[7, 5]];
         for text in [
             "push in on <obj-0> with <obj-1> behind it",
             "push in on <obj-0> , <obj-1> soft in the background",

@@ -95,9 +95,13 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
         || is_count(&words, [first, end])
         || is_floor(&words, [first, end], objects)
         || is_likeness(&words, [first, end], objects)
+        || words[first..end].iter().all(|word| is_listed(COURTESIES, &word.text))
         || is_of_other_work(&words, [first, end], objects)
         || is_control(&words, [first, end], objects)
 }
+
+/// What people end a message with.
+const COURTESIES: &str = "cheers thanks thx ta cheerio regards ciao";
 
 /// What people make or keep that is about a thing: `my toaster ad`, `the guitar channel`.
 const WORKS: &str = "ad ads advert adverts advertisement commercial commercials channel blog vlog podcast newsletter brand business \

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use thiserror::Error;
 
 use super::boxes;
-use super::object::ObjectSet;
+use super::object::{Object, ObjectSet};
 use cinesplat_scene::Scene;
 
 /// Why objects cannot be joined or taken out.
@@ -45,7 +45,7 @@ pub fn merge(scene: &Scene, set: &mut ObjectSet, ids: &[u32]) -> Result<(), Edit
         whole = set.get(id).and_then(|object| object.parent);
     }
     let corners = set.objects.iter().filter(|object| object.id == into || joined.contains(&object.id));
-    let corners: Vec<_> = corners.flat_map(|object| object.corners()).collect();
+    let corners: Vec<_> = corners.flat_map(Object::corners).collect();
     for label in set.labels.iter_mut().filter(|label| joined.contains(&u32::from(**label))) {
         *label = into as u16;
     }

@@ -125,7 +125,7 @@ pub(super) const BACKDROP_FRAC: f64 = 0.4;
 pub(super) const BACKDROP_OFF: f64 = 0.5;
 /// Angle from the middle of a side that counts as that side, and from half way between two sides, degrees.
 const SIDE_TOLERANCE_DEG: f64 = 40.0;
-const QUARTER_TOLERANCE_DEG: f64 = 20.0;
+const QUARTER_TOLERANCE_DEG: f64 = 35.0;
 /// Angle from the middle of a side, or of a place between two, that counts as there, degrees.
 pub(super) fn side_tolerance_deg(side: SubjectSide) -> f64 {
     match side {

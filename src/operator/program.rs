@@ -294,7 +294,7 @@ pub enum Lens {
 /// Side of a subject from which the camera sees it. The front of a subject faces the middle of the scene (the best
 /// viewpoint, where the subject itself is in the middle); left and right are those of somebody who sees the front. A camera
 /// is on a side where its azimuth about the subject's center is within 40 degrees of the middle of that side, and between two
-/// sides where it is within 20 degrees of 45 degrees from both.
+/// sides where it is within 35 degrees of 45 degrees from both.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 #[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
 #[derive(strum::VariantArray, strum::VariantNames)]

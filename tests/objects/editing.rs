@@ -18,7 +18,7 @@ fn row() -> (Scene, ObjectSet) {
     let scene = scene_of(gaussians);
     let mut set = from_labels(&scene, labels);
     set.objects[3].parent = Some(3);
-    set.objects[0].label = "left".to_owned();
+    "left".clone_into(&mut set.objects[0].label);
     (scene, set)
 }
 

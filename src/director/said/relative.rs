@@ -180,6 +180,7 @@ pub(crate) fn rise_from_low(steps: &mut [Step]) {
 /// Leaves out that a way passes what it begins at: `begin on the pillows, ease across the bed toward the window`.
 pub(crate) fn begin_at_passed(steps: &mut [Step]) {
     rise_from_passed(steps);
+    rise_from_named(steps);
     for step in steps.iter_mut().filter(|step| step.movement == Move::PushIn) {
         let starts = &step.start.subjects;
         let other = step.end.subjects.iter().all(|id| !starts.contains(id)) && !step.end.subjects.is_empty();
@@ -204,6 +205,22 @@ fn rise_from_passed(steps: &mut [Step]) {
     });
     if let Some(via) = passed {
         step.start.subjects = via.objects;
+    }
+}
+
+/// Rises from the thing that a reveal sets out from: `crane up from the chair to reveal the desk` begins with the chair.
+fn rise_from_named(steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement == Move::Reveal && step.via.is_none()) {
+        let leads_on = |ids: &[u32]| !ids.is_empty() && ids.iter().all(|id| !step.start.subjects.contains(id));
+        let way = match step.with[..] {
+            [Move::PedestalUp | Move::CraneUp] => Some(Move::CraneUp),
+            [Move::PedestalDown | Move::CraneDown] => Some(Move::CraneDown),
+            _ => None,
+        };
+        let is_named = !step.start.subjects.is_empty() && !step.start.hidden && leads_on(&step.end.subjects);
+        if let Some(way) = way.filter(|_| is_named) {
+            (step.movement, step.with) = (way, Vec::new());
+        }
     }
 }
 

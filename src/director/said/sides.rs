@@ -73,6 +73,11 @@ pub(crate) fn see_obliquely(linked: &Linked, steps: &mut [Step]) {
                 other => other,
             });
         }
+        // A straight way in from another thing ends on no other side than it comes from.
+        let is_other = !step.start.subjects.is_empty() && step.start.subjects != step.end.subjects;
+        if step.movement == Move::PushIn && is_other && step.end.side.is_some() {
+            step.movement = Move::Follow;
+        }
         let is_open = [&step.start, &step.end].iter().all(|framing| framing.side.is_none());
         if is_open && !step.movement.is_circular() {
             let is_first = step.end.subjects.is_empty() && !step.start.subjects.is_empty();
