@@ -39,6 +39,7 @@
 //! side      = "start" | "end" ;
 //! subjects  = "room" | object { "+" object } ;
 //! qualifier = ":" ( SIZE | ANGLE | PART | SIDE | PLACE | lens | measure | "hidden" | "before-" object ) | "!" | "+" object ;
+//!                                                   (* before-7: object 7 is seen behind the subject *)
 //! lens      = number "mm" | number "fov" | "wide-lens" | "long-lens" ;
 //! measure   = number "%"                            (* height of the subject over that of the frame *)
 //!           | number "deg"                          (* elevation from which the subject is seen *)

@@ -56,7 +56,8 @@ fn is_portrait(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]
         .iter()
         .all(|word| is_listed("a the little small nice short quick proper portrait portraits", &word.text));
     let is_named = |object: &NamedObject| object.label.to_lowercase().contains("portrait");
-    is_portrait && first < of && word_at(words, of) == "of" && !objects.iter().any(is_named)
+    let says_so = words[first..of].iter().any(|word| word.text.starts_with("portrait"));
+    is_portrait && says_so && word_at(words, of) == "of" && !objects.iter().any(is_named)
 }
 
 /// Whether a mention names no thing: its words are the colors of a look or a term of the trade.
@@ -362,6 +363,18 @@ mod tests {
         assert!(is_none("start down by the tiles, looking up at the skull", "the tiles"));
         assert!(is_none("glide low along the floorboards", "the floorboards"));
         assert!(!is_none("push in on the tiles", "the tiles"));
+    }
+
+    #[test]
+    fn likenesses_works_controls_and_courtesies_are_no_things() {
+        assert!(is_none("zoom in and out, the way an accordion does, slowly", "way an accordion"));
+        assert!(is_none("three seconds, my toaster ad isn't a feature film", "my toaster"));
+        assert!(is_none("strafe left, mouse untouched", "mouse"));
+        assert!(is_none("horizon level, cheers", "cheers"));
+        assert!(is_none("a little portrait of the skull", "a little portrait of the skull"));
+        assert!(!is_none("push in on the toaster", "the toaster"));
+        assert!(!is_none("push in on the mouse", "the mouse"));
+        assert!(!is_none("my skull ad", "my skull"));
     }
 
     #[test]

@@ -66,6 +66,20 @@ fn an_objects_file_may_be_written_over_itself() {
     assert!(fs::read_to_string(folder.path().join("objects.json")).unwrap().contains("\"mug\""));
 }
 
+/// Names used to be lost without a word.
+#[test]
+fn names_and_corrections_that_no_file_keeps_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    data(folder.path(), &["objects", SMALL_SCENE, "-o", "objects.json"]);
+    for edit in [["--name", "1=mug"], ["--merge", "1,2"], ["--drop", "1"]] {
+        let line = [&["objects", SMALL_SCENE, "--objects", "objects.json"][..], &edit].concat();
+        let said = answer(folder.path(), &line);
+        assert!(said.starts_with("exit 2\n") && said.contains("without a file to write"), "{said}");
+    }
+    let line = ["objects", SMALL_SCENE, "--objects", "objects.json", "--detail", "2"];
+    assert!(answer(folder.path(), &line).starts_with("exit 2\n"));
+}
+
 /// A file that does not exist used to be passed over where the shot names no objects.
 #[test]
 fn an_objects_file_that_a_shot_does_not_need_is_checked() {

@@ -1,7 +1,7 @@
 //! Which side of a subject a film shows where the words leave it open: the captured one, and the front of a lone thing.
 
 use cinesplat::objects::{Object, ObjectSet};
-use cinesplat::operator::{Amount, Framing, Step, World};
+use cinesplat::operator::{Amount, Framing, Step, SubjectSide, World};
 use cinesplat::scene::Gaussians;
 use cinesplat::trajectory::Move;
 use glam::{DVec3, Quat, Vec3};
@@ -101,5 +101,18 @@ fn a_full_circle_begins_and_ends_at_the_front_and_an_arc_passes_it() {
         }
         let nearest = around(None).iter().map(|state| off_deg(state.pose.position, front)).fold(180.0, f64::min);
         assert!(nearest < 20.0, "passes {nearest} degrees off");
+    }
+}
+
+#[test]
+fn a_three_quarter_view_is_between_the_front_and_a_side() {
+    let (gaussians, objects) = cube();
+    for (side, middle_deg) in [(SubjectSide::FromFrontQuarter, 45.0), (SubjectSide::FromBackQuarter, 135.0)] {
+        let mut world = World::new(&gaussians, DVec3::Y, &objects, &[1]).unwrap();
+        world.set_front(1, DVec3::X);
+        let end = Framing { subjects: vec![1], side: Some(side), ..Framing::default() };
+        let eye = film(&solved(&world, vec![Step { end, ..Step::of(Move::Static) }]))[0].pose.position;
+        let off_deg = off_deg(eye, DVec3::X);
+        assert!((off_deg - middle_deg).abs() < 36.0, "{side}: {off_deg} degrees off the front");
     }
 }

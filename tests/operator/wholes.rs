@@ -7,7 +7,7 @@ use cinesplat::trajectory::{CameraState, Move, ShotAngle, ShotSize};
 use glam::DVec3;
 
 use super::composition::in_frame;
-use super::{film, solved, wall};
+use super::{film, room, solved, wall};
 
 /// Half the extents of a thing with nothing around it.
 const HALF: DVec3 = DVec3::new(0.3, 0.9, 0.3);
@@ -86,4 +86,18 @@ fn a_push_over_a_low_thing_begins_behind_it() {
     assert!((first - from).dot(way) < 0.0, "starts at {first}");
     assert!((last - from).dot(way) > 0.0, "ends at {last}");
     assert!(states.iter().all(|state| state.pose.position.y > 1.0), "over the top of 1 m");
+}
+
+#[test]
+fn a_pull_out_from_high_on_a_wall_to_the_room_looks_down_into_it() {
+    let (gaussians, mut objects) = room();
+    let clock = Object::from_box(3, "clock", DVec3::new(2.95, 1.95, 0.0), DVec3::new(0.05, 0.15, 0.15));
+    objects.objects.push(clock);
+    let world = World::new(&gaussians, DVec3::Y, &objects, &[3]).unwrap();
+    let end = Framing { size: Some(ShotSize::Long), ..Framing::default() };
+    let frames = film(&solved(&world, vec![Step { start: about(3), end, ..Step::of(Move::PullOut) }]));
+    let (first, last) = (frames[0].pose.forward().y, frames[frames.len() - 1].pose.forward().y);
+    assert!(last < first - 0.03, "looks up by {first} at first and by {last} at the end");
+    let clock = in_frame(&frames[frames.len() - 1], DVec3::new(2.95, 1.95, 0.0));
+    assert!(clock.abs().max_element() < 0.5, "the clock has left the picture: {clock}");
 }

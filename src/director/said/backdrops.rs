@@ -10,9 +10,9 @@ pub(crate) fn set_backdrops(linked: &Linked, steps: &mut [Step]) {
     for backdrop in &linked.backdrops {
         let said_of =
             steps.iter().rposition(|step| step.words.is_none_or(|[from, _]| from <= backdrop.at)).unwrap_or(0);
-        let order = (0..=said_of).rev().chain(said_of + 1..steps.len());
+        let mut order = (0..=said_of).rev().chain(said_of + 1..steps.len());
         let shows = |step: &Step| shows(&step.end, backdrop) || shows(&step.start, backdrop);
-        let nth = order.clone().find(|nth| steps.get(*nth).is_some_and(shows)).unwrap_or(said_of);
+        let nth = order.find(|nth| steps.get(*nth).is_some_and(shows)).unwrap_or(said_of);
         let Some(step) = steps.get_mut(nth) else { continue };
         let begins = shows_only_at_start(step, backdrop) && step.movement != Move::Static;
         let framing = if begins { &mut step.start } else { &mut step.end };
@@ -29,11 +29,12 @@ fn shows(framing: &Framing, backdrop: &Backdrop) -> bool {
 }
 
 fn shows_only_at_start(step: &Step, backdrop: &Backdrop) -> bool {
-    shows(&step.start, backdrop) && !shows(&step.end, backdrop) && !(step.end.subjects.is_empty() && leaves(step))
+    let stays = step.end.subjects.is_empty() && keeps_subject(step);
+    shows(&step.start, backdrop) && !shows(&step.end, backdrop) && !stays
 }
 
 /// Whether the move keeps its subject until the end.
-fn leaves(step: &Step) -> bool {
+fn keeps_subject(step: &Step) -> bool {
     matches!(step.movement, Move::PushIn | Move::ZoomIn | Move::ArcLeft | Move::ArcRight)
 }
 

@@ -113,3 +113,22 @@ pub(crate) fn rule_out_turns(linked: &Linked, program: &mut Program) {
     }
     program.forbidden.sort_unstable();
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::{about, linked};
+    use super::*;
+
+    #[test]
+    fn a_ban_of_travel_is_that_of_the_turn_where_another_step_travels_by_name() {
+        let is_kept = |text: &str| {
+            let steps = vec![about(Move::PanRight, &[5], [0, 20]), about(Move::TruckLeft, &[7], [20, text.len()])];
+            let mut program = Program { steps, forbidden: vec![Motion::Travel], ..Program::default() };
+            keep_travel_bans_to_turns(&linked(text), &mut program);
+            !program.forbidden.is_empty()
+        };
+        assert!(!is_kept("pan right , planted . then truck left a metre"));
+        assert!(is_kept("pan right , planted . then on to <obj-1>"));
+        assert!(is_kept("pan right , planted . then do not truck to <obj-1>"));
+    }
+}

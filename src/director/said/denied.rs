@@ -1,7 +1,7 @@
 //! What a clause only denies: `don't go up to the pictures`, `ignore the note about ending on the mirror`, `do not tilt down`.
 
 use cinesplat_language::{Linked, is_listed};
-use cinesplat_operator::{Framing, Limit, Step};
+use cinesplat_operator::{Framing, Limit, Program, Step};
 
 use super::briefs::is_camera_verb;
 use crate::direction::Direction;
@@ -67,9 +67,7 @@ pub(crate) fn drop_denied(linked: &Linked, direction: &mut Direction) {
             Denial::Shown if is_dropped && !is_shown => {
                 program.steps.iter_mut().for_each(|step| add(&mut step.avoid, &ids));
             }
-            Denial::Neared if is_dropped => {
-                program.limits.extend(ids.iter().map(|id| Limit::Clear(Some(*id), BERTH)));
-            }
+            Denial::Neared if is_dropped => stay_clear(linked, program, &ids),
             _ => {}
         }
     }
@@ -78,6 +76,17 @@ pub(crate) fn drop_denied(linked: &Linked, direction: &mut Direction) {
             direction.remove_step(nth);
         }
     }
+}
+
+/// Keeps the camera away from some things, among the limits that the words state.
+fn stay_clear(linked: &Linked, program: &mut Program, ids: &[u32]) {
+    if program.limits.is_empty() {
+        program.limits.clone_from(&linked.limits);
+    }
+    let comes_later = |limit: &Limit| limit.is_speed() || matches!(limit, Limit::Within(..));
+    let at = program.limits.iter().position(comes_later).unwrap_or(program.limits.len());
+    let clear: Vec<Limit> = ids.iter().map(|id| Limit::Clear(Some(*id), BERTH)).collect();
+    program.limits.splice(at..at, clear);
 }
 
 fn add(list: &mut Vec<u32>, ids: &[u32]) {
@@ -141,6 +150,7 @@ fn is_ruled_out(linked: &Linked, step: &Step) -> bool {
 mod tests {
     use super::super::fixture::{about, direction, linked};
     use super::*;
+    use cinesplat_operator::Level;
     use cinesplat_trajectory::Move;
 
     fn left(text: &str, steps: Vec<Step>) -> Direction {
@@ -158,6 +168,15 @@ mod tests {
         assert_eq!((read.program.steps.len(), &read.program.steps[0].avoid[..]), (1, &[7][..]));
         let read = left("slide along <obj-0> . ignore the earlier note about ending on <obj-1>", two(7));
         assert_eq!((read.program.steps.len(), read.program.limits.len()), (1, 0));
+    }
+
+    #[test]
+    fn a_denied_way_leaves_the_limits_that_the_words_state() {
+        let said = "slide along <obj-0> and don 't go up to <obj-1>";
+        let limits = vec![Limit::Below(Level::Units(1.4)), Limit::Speed(0.3)];
+        let mut read = direction(vec![about(Move::TruckRight, &[5], [0, 20]), about(Move::PushIn, &[7], [20, 90])]);
+        drop_denied(&Linked { limits: limits.clone(), ..linked(said) }, &mut read);
+        assert_eq!(read.program.limits, [limits[0], Limit::Clear(Some(7), BERTH), limits[1]]);
     }
 
     #[test]

@@ -303,6 +303,34 @@ mod tests {
     }
 
     #[test]
+    fn a_rise_begins_at_what_it_sets_out_from() {
+        let via = |ids: &[u32]| Some(Via { how: Pass::Past, objects: ids.to_vec() });
+        let mut steps = [Step { via: via(&[7]), ..about(Move::CraneUp, &[5], [0, 9]) }];
+        begin_at_passed(&mut steps);
+        assert_eq!((&steps[0].start.subjects[..], &steps[0].via), (&[7][..], &None));
+        let mut steps = [Step { via: via(&[7]), ..about(Move::TruckLeft, &[5], [0, 9]) }];
+        begin_at_passed(&mut steps);
+        assert!(steps[0].start.subjects.is_empty() && steps[0].via.is_some());
+        let reveal = |start: &[u32], way: Move| {
+            let start = Framing { subjects: start.to_vec(), ..Framing::default() };
+            let mut steps = [Step { start, with: vec![way], ..about(Move::Reveal, &[5], [0, 9]) }];
+            begin_at_passed(&mut steps);
+            (steps[0].movement, steps[0].with.len())
+        };
+        assert_eq!(reveal(&[7], Move::PedestalUp), (Move::CraneUp, 0));
+        assert_eq!(reveal(&[], Move::PedestalUp), (Move::Reveal, 1));
+        assert_eq!(reveal(&[7], Move::TruckLeft), (Move::Reveal, 1));
+    }
+
+    #[test]
+    fn a_lift_that_faces_ahead_turns_nowhere() {
+        let ahead = Step { look: Some(Look::Ahead), ..about(Move::PedestalDown, &[5], [0, 9]) };
+        let mut program = Program { steps: vec![ahead], ..Program::default() };
+        level_lifts(&mut program);
+        assert_eq!((&program.forbidden[..], &program.steps[0].look), (&[Motion::Turn][..], &None));
+    }
+
+    #[test]
     fn a_share_of_a_way_is_measured() {
         let text = "dolly in <qty-0> . back half that distance";
         let linked = measured(text, QuantityKind::Units, 1.5);

@@ -211,7 +211,24 @@ fn side_of_start(words: &[&str]) -> Option<SubjectSide> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::fixture::{about, linked};
     use super::*;
+
+    #[test]
+    fn a_three_quarter_view_is_between_two_sides() {
+        let side = |text: &str, movement: Move, said: Option<SubjectSide>| {
+            let mut step = about(movement, &[5], [0, text.len()]);
+            step.end.side = said;
+            let mut steps = [step];
+            see_obliquely(&linked(text), &mut steps);
+            (steps[0].end.side, steps[0].movement)
+        };
+        let text = "<obj-0> from the front quarterwise";
+        assert_eq!(side(text, Move::PushIn, None), (Some(SubjectSide::FromFrontQuarter), Move::PushIn));
+        let back = (Some(SubjectSide::FromBackQuarter), Move::Static);
+        assert_eq!(side(text, Move::Static, Some(SubjectSide::FromBack)), back);
+        assert_eq!(side("<obj-0> from the front", Move::PushIn, None), (None, Move::PushIn));
+    }
 
     #[test]
     fn a_way_round_ends_at_the_side_that_is_named() {
