@@ -251,11 +251,7 @@ struct Ids(Vec<u32>);
 
 fn parse_ids(text: &str) -> Result<Ids, String> {
     let expected = || format!("expected ids such as 3,7,8, found `{text}`");
-    let id = |word: &str| {
-        let word = word.trim().trim_start_matches("<obj-").trim_end_matches('>');
-        word.parse().ok().filter(|id| (1..=65535).contains(id)).ok_or_else(expected)
-    };
-    text.split(',').map(id).collect::<Result<_, _>>().map(Ids)
+    text.split(',').map(objects::typed_id).collect::<Option<_>>().map(Ids).ok_or_else(expected)
 }
 
 /// Says which new names several objects have: a prompt with such a name means one of them.

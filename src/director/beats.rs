@@ -102,8 +102,8 @@ pub(crate) fn direct_beats(
         let mut steps = whole.program.steps.iter().enumerate();
         // A ban holds where it is said: another part may ask for that very motion.
         let is_asked = steps.any(|(nth, step)| !is_of_beat(nth) && asks_for(step, motion));
-        if !is_asked && !whole.program.forbidden.contains(&motion) {
-            whole.program.forbidden.push(motion);
+        if !is_asked {
+            whole.program.forbid(motion);
         }
     }
     time_beats(linked, timeline, &lengths, &mut whole.program);

@@ -231,14 +231,11 @@ impl Reader<'_> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fixture::linked;
 
-    /// The words that are left, and what is behind what; `<obj-0>` is object 5, `<obj-1>` object 7.
+    /// The words that are left, and what is behind what.
     fn read(text: &str) -> (String, Vec<[u32; 2]>) {
-        let words = text.split(' ');
-        let spans = words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1) + word.len()]));
-        let linked =
-            Linked { tokens_text: text.to_owned(), spans: spans.collect(), slots: vec![5, 7], ..Linked::default() };
-        let read = linked.without_backdrops(&[]);
+        let read = linked(text).without_backdrops(&[]);
         let pairs = read.backdrops.iter().map(|backdrop| [backdrop.ids[0], backdrop.of[0]]).collect();
         (read.tokens_text, pairs)
     }

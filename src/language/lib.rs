@@ -95,6 +95,8 @@ mod dictation;
 mod edit_distance;
 mod effects;
 mod error;
+#[cfg(test)]
+mod fixture;
 mod forbidding;
 mod frame_shape;
 mod heights;
@@ -142,7 +144,7 @@ pub use inflection::{VerbForm, inflect, stem};
 pub use known_words::GRAMMAR_TEXT;
 pub use lexicon::{Lexicon, WordList};
 pub use link::link;
-pub use linked::{Backdrop, Group, Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS};
+pub use linked::{Backdrop, Group, Linked, MAX_PROMPT_BYTES, MAX_QUANTITIES, MAX_SLOTS, add_ids};
 pub use mention::{Mention, check_prompt, link_mentions, link_parts};
 pub use names::{NamedObject, nearest_names};
 pub use not_things::is_no_thing;

@@ -91,21 +91,9 @@ impl Linked {
         if limits.is_empty() {
             return Ok(self);
         }
-        limits.sort_by_key(rank);
+        limits.sort_by_key(Limit::rank);
         let rest = self.without(&bytes, named);
         Ok(Self { limits, acts: self.acts, scenery: self.scenery, warnings: self.warnings, ..rest })
-    }
-}
-
-/// The order of limits in the notation.
-fn rank(limit: &Limit) -> u8 {
-    match limit {
-        Limit::Above(_) => 0,
-        Limit::Below(_) => 1,
-        Limit::Clear(..) => 2,
-        Limit::Within(..) => 3,
-        Limit::Speed(_) => 4,
-        Limit::TurnSpeed(_) => 5,
     }
 }
 
@@ -395,20 +383,12 @@ fn clears(ids: &[u32], units: f64) -> Vec<Limit> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::fixture::linked;
     use crate::quantity::Quantity;
 
     fn read(text: &str) -> Linked {
-        let words = text.split(' ');
-        let spans = words.scan(0, |at, word| Some([*at, std::mem::replace(at, *at + word.len() + 1) + word.len()]));
         let quantity = Quantity { kind: QuantityKind::Units, value: 0.5 };
-        let linked = Linked {
-            tokens_text: text.to_owned(),
-            spans: spans.collect(),
-            slots: vec![5, 7],
-            quantities: vec![quantity; 3],
-            ..Linked::default()
-        };
-        linked.without_limits().unwrap()
+        Linked { quantities: vec![quantity; 3], ..linked(text) }.without_limits().unwrap()
     }
 
     fn limits(text: &str) -> Vec<Limit> {

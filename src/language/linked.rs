@@ -97,6 +97,12 @@ pub(crate) fn without_article(name: &str) -> &str {
     }
 }
 
+/// Adds the ids that a list lacks, in their order.
+pub fn add_ids(list: &mut Vec<u32>, ids: &[u32]) {
+    let new: Vec<u32> = ids.iter().filter(|id| !list.contains(id)).copied().collect();
+    list.extend(new);
+}
+
 impl Linked {
     /// The words that begin in these bytes of the prompt, each with its own.
     pub fn words_in(&self, bytes: [usize; 2]) -> impl Iterator<Item = (&str, [usize; 2])> {
@@ -124,8 +130,7 @@ impl Linked {
         let mut out: Vec<u32> = Vec::new();
         for id in ids {
             let group = self.groups.iter().find(|group| group.id == *id && !group.members.is_empty());
-            let members = group.map_or(std::slice::from_ref(id), |group| &group.members);
-            out.extend(members.iter().filter(|member| !out.contains(member)).copied().collect::<Vec<_>>());
+            add_ids(&mut out, group.map_or(std::slice::from_ref(id), |group| &group.members));
         }
         out
     }

@@ -144,6 +144,8 @@ const OWNERS: &str = "the a an our my your their his her";
 
 /// What a move or a person is only compared with, where no thing of the scene is called so: `fly up like a drone`, `I am the cat`.
 fn is_likeness(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
+    // `Way an accordion`: the first word may belong to the mention.
+    let first = first + usize::from(word_at(words, first) == "way");
     let article = usize::from(is_listed(OWNERS, word_at(words, first)));
     let noun = first + article;
     let before = if article == 1 { first } else { first.saturating_sub(1) };
@@ -153,14 +155,6 @@ fn is_likeness(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]
     // `The way an accordion does`, `as a butler would`.
     let is_way = matches!(text(1), "way" | "as" | "how") && is_listed("does would do did might", word_at(words, end));
     let is_compared = (is_like || is_way) && matches!(owner, "a" | "an");
-    // `The way an accordion does`, all of it.
-    let is_whole_way = word_at(words, first) == "way"
-        && matches!(word_at(words, first + 1), "a" | "an")
-        && is_listed("does would do did might", word_at(words, end))
-        && !words[first + 2..end].iter().any(|word| is_called(objects, word));
-    if is_whole_way {
-        return true;
-    }
     let is_persona = is_listed(OWNERS, owner) && PERSONAS.contains(&[text(2), text(1)]);
     noun < end && (is_compared || is_persona) && !words[noun..end].iter().any(|word| is_called(objects, word))
 }

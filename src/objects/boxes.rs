@@ -26,6 +26,13 @@ pub(crate) struct UprightBox {
     pub(crate) rotation: DQuat,
 }
 
+impl Object {
+    /// Gives the object a box.
+    pub(crate) fn take_box(&mut self, fitted: &UprightBox) {
+        (self.center, self.half_extents, self.rotation) = (fitted.center, fitted.half_extents, fitted.rotation);
+    }
+}
+
 /// The upright box of some Gaussians: the yaw of the smallest footprint, with 0.5 % trimmed at both ends of each axis.
 /// Ignores Gaussians that are not solid, unless fewer than a tenth are solid. `None` without Gaussians.
 pub(crate) fn fit(gaussians: &Gaussians, members: &[usize], up: DVec3) -> Option<UprightBox> {

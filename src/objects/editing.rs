@@ -35,14 +35,8 @@ pub fn merge(scene: &Scene, set: &mut ObjectSet, ids: &[u32]) -> Result<(), Edit
     let Some((&into, rest)) = ids.split_first() else { return Ok(()) };
     check_known(set, ids)?;
     let joined: BTreeSet<u32> = rest.iter().copied().filter(|id| *id != into).collect();
-    let mut whole = set.get(into).and_then(|object| object.parent);
-    // No object is a part of itself, which bounds the number of steps.
-    for _ in 0..set.objects.len() {
-        let Some(id) = whole else { break };
-        if joined.contains(&id) {
-            return Err(EditError::PartOf { part: into, whole: id });
-        }
-        whole = set.get(id).and_then(|object| object.parent);
+    if let Some(&whole) = joined.iter().find(|id| set.parts_of(**id).contains(&into)) {
+        return Err(EditError::PartOf { part: into, whole });
     }
     let corners = set.objects.iter().filter(|object| object.id == into || joined.contains(&object.id));
     let corners: Vec<_> = corners.flat_map(Object::corners).collect();
@@ -56,7 +50,7 @@ pub fn merge(scene: &Scene, set: &mut ObjectSet, ids: &[u32]) -> Result<(), Edit
     let members = set.members().remove(&into).unwrap_or_default();
     let fitted = boxes::fit(&scene.gaussians, &members, scene.up).or_else(|| boxes::fit_points(&corners, scene.up));
     if let (Some(object), Some(fitted)) = (set.objects.iter_mut().find(|object| object.id == into), fitted) {
-        (object.center, object.half_extents, object.rotation) = (fitted.center, fitted.half_extents, fitted.rotation);
+        object.take_box(&fitted);
         object.num_gaussians = members.len();
         object.points.clear();
         (object.shape_radius, object.mask_iou) = (0.0, 0.0);
@@ -75,17 +69,7 @@ pub fn remove(set: &mut ObjectSet, ids: &[u32]) -> Result<(), EditError> {
         // A part may have left with its whole.
         let Some(object) = set.get(id) else { continue };
         let heir = object.parent.unwrap_or(0) as u16;
-        let mut gone = BTreeSet::from([id]);
-        loop {
-            let is_part = |whole: &u32| gone.contains(whole);
-            let parts: Vec<u32> =
-                set.objects.iter().filter(|o| o.parent.as_ref().is_some_and(is_part)).map(|o| o.id).collect();
-            let known = gone.len();
-            gone.extend(parts);
-            if gone.len() == known {
-                break;
-            }
-        }
+        let gone: BTreeSet<u32> = std::iter::once(id).chain(set.parts_of(id)).collect();
         for label in set.labels.iter_mut().filter(|label| gone.contains(&u32::from(**label))) {
             *label = heir;
         }

@@ -376,7 +376,7 @@ fn complete(
             let expected = "a center and half extents, or Gaussians with this id in the labels";
             return Err(entry.bad("center", "missing", expected));
         };
-        (object.center, object.half_extents, object.rotation) = (fitted.center, fitted.half_extents, fitted.rotation);
+        object.take_box(&fitted);
     }
     set.objects.sort_by_key(|object| object.id);
     if set.labels.is_empty() {

@@ -108,7 +108,7 @@ fn assemble(scene: &Scene, labels: Vec<u16>, of_id: &dyn Fn(u32) -> Traits) -> O
         let traits = of_id(object.id);
         let describe = || naming::describe(scene, members, &fitted, (size, traits.is_surface));
         object.label = traits.name.map_or_else(describe, str::to_owned);
-        (object.center, object.half_extents, object.rotation) = (fitted.center, fitted.half_extents, fitted.rotation);
+        object.take_box(&fitted);
         object.num_gaussians = members.len();
     }
     naming::make_unique(&mut set.objects);

@@ -85,7 +85,7 @@ pub use lifting::{LiftedLabels, PosedMask, lift_masks, read_mask};
 pub use lone::only_whole;
 pub use naming::is_description;
 pub use object::{Object, ObjectSet};
-pub use renaming::{Renaming, rename};
+pub use renaming::{Renaming, rename, typed_id};
 pub use sampling::PointSampler;
 pub use settings::FindSettings;
 pub use sheet::{Sheet, SheetSettings, Tile, sheet};

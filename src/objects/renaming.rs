@@ -20,14 +20,19 @@ impl FromStr for Renaming {
     fn from_str(text: &str) -> Result<Self, String> {
         let expected = || format!("expected ID=NAME such as 41=mug, found `{}`", text.trim());
         let (id, name) = text.split_once('=').ok_or_else(expected)?;
-        let id = id.trim().trim_start_matches("<obj-").trim_end_matches('>');
-        let id = id.parse().ok().filter(|id| (1..=65535).contains(id)).ok_or_else(expected)?;
+        let id = typed_id(id).ok_or_else(expected)?;
         let name = name.trim().trim_matches('"').trim();
         if name.is_empty() || name.chars().any(char::is_control) {
             return Err(expected());
         }
         Ok(Self { id, name: name.to_owned() })
     }
+}
+
+/// The id of an object as people type it: `41` or `<obj-41>`.
+pub fn typed_id(text: &str) -> Option<u32> {
+    let id = text.trim().trim_start_matches("<obj-").trim_end_matches('>');
+    id.parse().ok().filter(|id| (1..=65535).contains(id))
 }
 
 impl Renaming {

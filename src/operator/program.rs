@@ -53,6 +53,18 @@ impl Limit {
         }
     }
 
+    /// Place of its kind in a program and in the notation.
+    pub fn rank(&self) -> u8 {
+        match self {
+            Self::Above(_) => 0,
+            Self::Below(_) => 1,
+            Self::Clear(..) => 2,
+            Self::Within(..) => 3,
+            Self::Speed(_) => 4,
+            Self::TurnSpeed(_) => 5,
+        }
+    }
+
     /// Whether it limits a speed, which no single camera has.
     pub fn is_speed(&self) -> bool {
         matches!(self, Self::Speed(_) | Self::TurnSpeed(_))
@@ -113,6 +125,14 @@ impl Motion {
 }
 
 impl Program {
+    /// Forbids a motion, once and in its place among the others.
+    pub fn forbid(&mut self, motion: Motion) {
+        if !self.forbidden.contains(&motion) {
+            self.forbidden.push(motion);
+            self.forbidden.sort_unstable();
+        }
+    }
+
     /// The program with every list of object ids replaced by `map` of it.
     #[must_use]
     pub fn with_ids(mut self, map: &dyn Fn(&[u32]) -> Vec<u32>) -> Self {

@@ -1,6 +1,6 @@
 //! What is seen behind the subjects: `with the window behind it`.
 
-use cinesplat_language::{Backdrop, Linked};
+use cinesplat_language::{Backdrop, Linked, add_ids};
 use cinesplat_operator::{Framing, Step};
 use cinesplat_trajectory::Move;
 
@@ -17,8 +17,7 @@ pub(crate) fn set_backdrops(linked: &Linked, steps: &mut [Step]) {
         let begins = shows_only_at_start(step, backdrop) && step.movement != Move::Static;
         let framing = if begins { &mut step.start } else { &mut step.end };
         framing.subjects.retain(|id| !backdrop.ids.contains(id));
-        let open: Vec<u32> = backdrop.ids.iter().filter(|id| !framing.backdrop.contains(id)).copied().collect();
-        framing.backdrop.extend(open);
+        add_ids(&mut framing.backdrop, &backdrop.ids);
         step.keep.retain(|id| !backdrop.ids.contains(id));
     }
 }

@@ -102,16 +102,14 @@ pub(crate) fn rule_out_turns(linked: &Linked, program: &mut Program) {
     let bans_turns = words.windows(2).any(|pair| matches!(pair, ["no" | "without" | "zero", "rotation" | "rotations"]));
     let turns = |step: &Step| [Motion::Pan, Motion::Tilt, Motion::Roll].iter().any(|motion| asks_for(step, *motion));
     let may_turn = program.steps.iter().all(|step| !turns(step) && !step.movement.is_circular());
-    if bans_turns && may_turn && !program.forbidden.contains(&Motion::Turn) {
-        program.forbidden.push(Motion::Turn);
+    if bans_turns && may_turn {
+        program.forbid(Motion::Turn);
     }
     for motion in [Motion::Tilt, Motion::Roll] {
-        let is_new = !program.forbidden.contains(&motion) && !program.steps.iter().any(|step| asks_for(step, motion));
-        if is_said && is_new {
-            program.forbidden.push(motion);
+        if is_said && !program.steps.iter().any(|step| asks_for(step, motion)) {
+            program.forbid(motion);
         }
     }
-    program.forbidden.sort_unstable();
 }
 
 #[cfg(test)]

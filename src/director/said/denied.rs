@@ -1,6 +1,6 @@
 //! What a clause only denies: `don't go up to the pictures`, `ignore the note about ending on the mirror`, `do not tilt down`.
 
-use cinesplat_language::{Linked, is_listed};
+use cinesplat_language::{Linked, add_ids, is_listed};
 use cinesplat_operator::{Framing, Limit, Program, Step};
 
 use super::briefs::is_camera_verb;
@@ -65,7 +65,7 @@ pub(crate) fn drop_denied(linked: &Linked, direction: &mut Direction) {
         let is_shown = program.steps.iter().any(|step| is_of_it(&step.end) || is_of_it(&step.start));
         match denial {
             Denial::Shown if is_dropped && !is_shown => {
-                program.steps.iter_mut().for_each(|step| add(&mut step.avoid, &ids));
+                program.steps.iter_mut().for_each(|step| add_ids(&mut step.avoid, &ids));
             }
             Denial::Neared if is_dropped => stay_clear(linked, program, &ids),
             _ => {}
@@ -83,15 +83,8 @@ fn stay_clear(linked: &Linked, program: &mut Program, ids: &[u32]) {
     if program.limits.is_empty() {
         program.limits.clone_from(&linked.limits);
     }
-    let comes_later = |limit: &Limit| limit.is_speed() || matches!(limit, Limit::Within(..));
-    let at = program.limits.iter().position(comes_later).unwrap_or(program.limits.len());
-    let clear: Vec<Limit> = ids.iter().map(|id| Limit::Clear(Some(*id), BERTH)).collect();
-    program.limits.splice(at..at, clear);
-}
-
-fn add(list: &mut Vec<u32>, ids: &[u32]) {
-    let new: Vec<u32> = ids.iter().filter(|id| !list.contains(id)).copied().collect();
-    list.extend(new);
+    program.limits.extend(ids.iter().map(|id| Limit::Clear(Some(*id), BERTH)));
+    program.limits.sort_by_key(Limit::rank);
 }
 
 /// The things that no words name but to deny them.

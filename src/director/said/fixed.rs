@@ -75,9 +75,8 @@ pub(crate) fn stay_put(linked: &Linked, program: &mut Program) {
     }
     let zooms = words.iter().any(|word| is_form(word, "zoom") || *word == "lens");
     turn_steps(linked, &mut program.steps, zooms, |_| true);
-    if !program.steps.iter().any(travels) && !program.forbidden.contains(&Motion::Travel) {
-        program.forbidden.push(Motion::Travel);
-        program.forbidden.sort_unstable();
+    if !program.steps.iter().any(travels) {
+        program.forbid(Motion::Travel);
     }
 }
 

@@ -30,9 +30,7 @@ pub(crate) fn hold_height(linked: &Linked, direction: &mut Direction) {
     if program.steps.iter().any(rises) {
         return;
     }
-    if !program.forbidden.contains(&Motion::Rise) {
-        program.forbidden.push(Motion::Rise);
-    }
+    program.forbid(Motion::Rise);
     let is_met = |word: &str| HEIGHTS.contains(&word) || CONSTANT.contains(&word) || CAMERAS.contains(&word);
     direction.unmet.retain(|span| !linked.words_in(*span).all(|(word, _)| is_met(word)));
     let Some(height) = held.units else { return };

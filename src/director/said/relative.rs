@@ -230,10 +230,7 @@ pub(crate) fn level_lifts(program: &mut Program) {
     let is_lift = matches!(step.movement, Move::PedestalUp | Move::PedestalDown) && step.with.is_empty();
     if is_lift && step.look == Some(Look::Ahead) {
         step.look = None;
-        if !program.forbidden.contains(&Motion::Turn) {
-            program.forbidden.push(Motion::Turn);
-            program.forbidden.sort_unstable();
-        }
+        program.forbid(Motion::Turn);
     }
 }
 

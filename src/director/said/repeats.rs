@@ -3,7 +3,7 @@
 //! The network sometimes takes the details of a move (its length, its extent, its subject) for a second move of the same
 //! kind. Such a step is one with the step before, unless the words repeat the move.
 
-use cinesplat_language::{LanguageError, Linked, Senses, is_listed};
+use cinesplat_language::{LanguageError, Linked, Senses, add_ids, is_listed};
 use cinesplat_operator::{Amount, Framing, Look, Pass, Speed, Step};
 use cinesplat_trajectory::Move;
 
@@ -233,8 +233,7 @@ fn passing_both(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
     let mut via = first.via.clone().filter(|via| matches!(via.how, Pass::Past | Pass::Along))?;
     let next = second.via.as_ref().map_or(&second.end.subjects, |next| &next.objects);
     via.how = Pass::Past;
-    let new: Vec<u32> = next.iter().filter(|id| !via.objects.contains(id)).copied().collect();
-    via.objects.extend(new);
+    add_ids(&mut via.objects, next);
     Some(Step { via: Some(via), words: first.joint_words(second), ..first.clone() })
 }
 

@@ -141,11 +141,8 @@ pub(crate) fn keep_level(linked: &Linked, program: &mut Program) {
         framing.angle = framing.angle.filter(|angle| *angle == ShotAngle::EyeLevel);
     }
     for motion in [Motion::Tilt, Motion::Roll] {
-        if !program.forbidden.contains(&motion) {
-            program.forbidden.push(motion);
-        }
+        program.forbid(motion);
     }
-    program.forbidden.sort_unstable();
 }
 
 /// Words of a picture from straight above, and words that lead to it.

@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use cinesplat_language::Linked;
+use cinesplat_language::{Linked, add_ids};
 use cinesplat_operator::{Framing, Program, Step};
 
 /// Words that join things, besides commas.
@@ -71,7 +71,7 @@ pub(crate) fn keep_always(linked: &Linked, steps: &mut [Step]) {
                     framing.whole = true;
                 }
             }
-            step.keep.extend(ids.iter().filter(|id| !step.keep.contains(id)).copied().collect::<Vec<_>>());
+            add_ids(&mut step.keep, &ids);
         }
     }
 }
@@ -89,7 +89,7 @@ pub(crate) fn complete_lists(linked: &Linked, program: &mut Program) {
         // Which of several steps is meant is not said.
         let (Some(step), None) = (steps.next(), steps.next()) else { continue };
         if let Some(ids) = list_with(step, &things) {
-            ids.extend(lost.iter().filter(|id| !ids.contains(id)).copied().collect::<Vec<_>>());
+            add_ids(ids, &lost);
         }
     }
 }

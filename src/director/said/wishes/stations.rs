@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use cinesplat_language::{Linked, is_listed};
+use cinesplat_language::{Linked, add_ids, is_listed};
 
 use super::super::directions::says_any;
 use super::text::{Text, is_object};
@@ -196,7 +196,7 @@ fn split_anchor(text: &Text<'_>, linked: &Linked, things: &Things<'_>, stations:
         if let Subject::Things(shown) = &mut all.subject {
             for station in &out {
                 if let Subject::Things(own) = &station.subject {
-                    shown.extend(own.iter().filter(|id| !shown.contains(id)).copied().collect::<Vec<_>>());
+                    add_ids(shown, own);
                 }
             }
         }
