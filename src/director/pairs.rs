@@ -6,7 +6,7 @@
 
 use cinesplat_language::{Mention, NamedObject, Word, is_listed, tokenize};
 
-use crate::explained::{is_number, replace_mentions, said};
+use crate::explained::{head, is_number, label, replace_mentions, said};
 use crate::names::FoundMention;
 use crate::placed::{Flank, Places, kind_of, outermost, told_flank};
 
@@ -90,7 +90,9 @@ pub(crate) fn name_pairs(
         };
         let bytes = [words[at].span[0], words[at + len - 1].span[1]];
         at += 1;
-        pair = pair_before(prompt, objects, found, bytes[0], pair);
+        let is_one = matches!(phrase, Phrase::Other | Phrase::Side(_));
+        pair = pair_before(prompt, objects, found, bytes[0], pair)
+            .or_else(|| told_apart(objects, found, bytes[0]).filter(|_| is_one));
         // `The table between the two` is the table.
         if phrase == Phrase::Both && at > 1 && words[at - 2].text == "between" {
             let gap = words[at - 2].span[0];
@@ -182,6 +184,16 @@ fn pair_before(
         }
     }
     known
+}
+
+/// The only two whose labels end with the same noun, one of which is named last before a byte: `the floor lamp, the other one`.
+fn told_apart(objects: &[NamedObject], found: &[FoundMention], from: usize) -> Option<Pair> {
+    let last = found.iter().rev().find(|found| found.mention.bytes[1] <= from && !found.mention.ids.is_empty())?;
+    let [id] = last.mention.ids[..] else { return None };
+    let noun = head(label(objects, id)?)?;
+    let ids: Vec<u32> =
+        objects.iter().filter(|object| head(&object.label).as_ref() == Some(&noun)).map(|object| object.id).collect();
+    (ids.len() == 2).then_some(Pair { ids, last: Some(id), group: None, is_told: true })
 }
 
 /// Whether the words between the mention of both and `one` only lead on to them.

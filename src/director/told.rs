@@ -23,6 +23,18 @@ const PERSONS: &str = "my our we i she he they her his their nan gran grandma mu
 const ASKS: &str = "show shows see sees look looking watch could can would should must please want wants need needs give let first \
     then last end ends ending start starts begin begins finish until till wish take takes notice notices make makes frame shot \
     camera";
+/// Words between `so` and what is asked for, and verbs in which it is asked.
+const PLEAS: &str = "please just maybe , can could would you we i let 's pls";
+const COMMANDS: &str = "start begin open push pull pan tilt zoom dolly truck track crane pedestal orbit circle arc go move come rise \
+    sink lower raise drop slide glide drift creep fly travel hold stay keep give show frame get take put stand walk lift spin swing turn look";
+/// Verbs of who tells how things are, and words of who says what is seen.
+const STATES: &str =
+    "is 's are 're was were has have need needs want wants love loves like likes care cares means sells";
+const SHOWS: &str =
+    "show shows see sees look looking watch then until till while start begin end finish first last frame shot camera";
+/// Verbs of what somebody did, which ask for nothing.
+const DEEDS: &str = "scanned sells sell loves love hates hate bought built painted restored inherited moved rents selling made borrowed";
+const PRONOUNS: &str = "it them him her its their they this that there here";
 /// What a film is called in its title.
 const FILMS: &str = "film video clip reel ad advert advertisement trailer teaser spot short promo opener header";
 const ABOUT: &str = "for of about on";
@@ -33,10 +45,15 @@ pub(crate) fn without_told(linked: &Linked) -> Option<Linked> {
         return None;
     }
     let words: Vec<(&str, [usize; 2])> = linked.words_in([0, usize::MAX]).collect();
-    let sentences: Vec<&[(&str, [usize; 2])]> = words.split_inclusive(|(word, _)| is_listed(MARKS, word)).collect();
+    let sentences: Vec<&[(&str, [usize; 2])]> =
+        words.split_inclusive(|(word, _)| is_listed(MARKS, word)).flat_map(parts_at_so).collect();
     let is_told = |nth: usize| {
         let words = texts(sentences[nth]);
-        !has_numbers(linked, &words) && (is_story(&words) || nth == 0 && is_title(&words))
+        let is_reason =
+            || sentences.get(nth + 1).map(|next| texts(next)).is_some_and(|next| gives_reason(linked, &words, &next));
+        let is_whole = nth + 1 == sentences.len() || words.last().is_some_and(|word| is_listed(MARKS, word));
+        let is_told = is_whole && is_story(&words) || nth == 0 && is_title(&words) || is_reason();
+        !has_numbers(linked, &words) && is_told
     };
     let told: Vec<usize> = (0..sentences.len()).filter(|nth| is_told(*nth)).collect();
     let left = || (0..sentences.len()).filter(|nth| !told.contains(nth)).map(|nth| texts(sentences[nth]));
@@ -49,6 +66,37 @@ pub(crate) fn without_told(linked: &Linked) -> Option<Linked> {
         Some([first.1[0], last.1[1]])
     });
     Some(linked.without(&bytes.collect::<Vec<_>>(), None))
+}
+
+/// A sentence in two, where it says why and then what to do: `it's the handles I need to study, so come down to ..`.
+fn parts_at_so<'a>(sentence: &'a [(&'a str, [usize; 2])]) -> impl Iterator<Item = &'a [(&'a str, [usize; 2])]> {
+    let words = texts(sentence);
+    let asks = |at: usize| {
+        let verb = (at + 1..words.len()).find(|at| !is_listed(PLEAS, words[*at])).unwrap_or(words.len());
+        words.get(verb).is_some_and(|word| is_listed(COMMANDS, word))
+    };
+    // `My mate scanned this kitchen and there's a guitar in it, spin round the guitar`.
+    let tells = |at: usize| {
+        words[at] == ","
+            && words[..at].iter().any(|word| is_listed(DEEDS, word))
+            && words[..at].iter().any(|word| is_listed(PERSONS, word))
+    };
+    let so = (1..words.len()).find(|at| (words[*at] == "so" || tells(*at)) && asks(*at)).unwrap_or(0);
+    [&sentence[..so], &sentence[so..]].into_iter().filter(|part| !part.is_empty())
+}
+
+/// Whether words only say why somebody asks for what the next ones say, which name their things themselves.
+fn gives_reason(linked: &Linked, words: &[&str], next: &[&str]) -> bool {
+    let is_thing = |word: &&str| linked.slot_at(word).is_some();
+    let first = next.iter().position(|word| is_thing(word) || is_listed(PRONOUNS, word));
+    let is_named = !words.iter().any(|word| is_thing(word)) || first.is_some_and(|at| is_thing(&next[at]));
+    let has = |list: &str| words.iter().any(|word| is_listed(list, word));
+    matches!(next.first(), Some(&("so" | ",")))
+        && words.len() >= FEWEST_WORDS
+        && is_named
+        && has(STATES)
+        && !has(SHOWS)
+        && !directs(&without_rooms(words))
 }
 
 /// The words of a sentence.
@@ -101,6 +149,14 @@ mod tests {
         assert_eq!(left(story).as_deref(), Some("could you show <obj-0> and <obj-1> ?"));
         let title = "hero film for <obj-0> . open on <obj-1> , then rise .";
         assert_eq!(left(title).as_deref(), Some("open on <obj-0> , then rise ."));
+    }
+
+    #[test]
+    fn a_reason_before_what_is_asked_is_left_out() {
+        let why = "we 're restoring <obj-0> and it 's the handles i need to study , so come down to <obj-0> .";
+        assert_eq!(left(why).as_deref(), Some("so come down to <obj-0> ."));
+        assert_eq!(left("we 're restoring <obj-0> and it 's the handles i like , so push in on it ."), None);
+        assert_eq!(left("we 're behind <obj-0> and it is in front , so it hides <obj-1> . push in on <obj-1>"), None);
     }
 
     #[test]

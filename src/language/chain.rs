@@ -5,9 +5,37 @@ use std::borrow::Cow;
 use super::tokenizer::{Word, tokenize};
 
 /// Words of moves and holds, as stems.
-const MOVES: [&str; 26] = [
-    "pan", "tilt", "truck", "push", "pull", "orbit", "arc", "crane", "boom", "dolly", "zoom", "hold", "track", "whip",
-    "rise", "ped", "pedestal", "roll", "static", "crab", "jib", "pi", "po", "lock", "rack", "circle",
+const MOVES: [&str; 30] = [
+    "pan",
+    "tilt",
+    "truck",
+    "push",
+    "pull",
+    "orbit",
+    "arc",
+    "crane",
+    "boom",
+    "dolly",
+    "zoom",
+    "hold",
+    "track",
+    "whip",
+    "rise",
+    "ped",
+    "pedestal",
+    "roll",
+    "static",
+    "crab",
+    "jib",
+    "pi",
+    "po",
+    "lock",
+    "rack",
+    "circle",
+    "establish",
+    "drift",
+    "settle",
+    "stop",
 ];
 /// Abbreviations and words of sizes.
 const SIZES: [&str; 18] = [

@@ -6,10 +6,13 @@
 use super::linked::{Linked, OBJECT, QUANTITY};
 
 /// What people say when they correct themselves, longest first. Commas do not count.
-const CORRECTIONS: [&[&str]; 17] = [
+const CORRECTIONS: [&[&str]; 20] = [
     &["no", "wait", "scratch", "that"],
     &["wait", "no", "scratch", "that"],
     &["no", "wait", "sorry"],
+    &["wait", "my", "mistake"],
+    &["no", "my", "mistake"],
+    &["sorry", "my", "mistake"],
     &["no", "scratch", "that"],
     &["no", "make", "that"],
     &["wait", "make", "that"],
@@ -151,7 +154,10 @@ fn denied_at(words: &[&str], at: usize) -> Option<[usize; 2]> {
     let second = (first + 2..words.len()).find(|at| !FILLERS.contains(&word(*at)))?;
     let is_meant = matches!((word(second + 1), word(second + 2)), ("i", "mean" | "meant") | ("instead", _));
     let is_pair = is_thing(&first) && word(first + 1) == "," && is_thing(&second);
-    (word(at) == "not" && begins && is_pair && is_meant).then_some([at, first + 2])
+    // `Not the left one, the right one: ..`, where nothing is said before that the denial could belong to.
+    let is_first = at == 0 || matches!(word(at - 1), "." | "!" | ";");
+    let is_instead = is_first && matches!(word(second + 1), "" | ":" | "." | ";" | "!" | "-");
+    (word(at) == "not" && begins && is_pair && (is_meant || is_instead)).then_some([at, first + 2])
 }
 
 /// The words of the correction that begins at word `at`, with the marks around it.

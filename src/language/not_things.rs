@@ -99,6 +99,10 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
         || words[first..end].iter().all(|word| is_listed(COURTESIES, &word.text))
         || is_of_other_work(&words, [first, end], objects)
         || is_control(&words, [first, end], objects)
+        || is_lens(&words, [first, end])
+        || is_trick(&words, [first, end])
+        || is_sense(&words, [first, end])
+        || is_camera(&words[first..end], objects)
 }
 
 /// What people end a message with.
@@ -127,6 +131,39 @@ fn is_control(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject])
     let names = words[first..end].iter().filter(|word| !is_listed(OWNERS, &word.text));
     let is_all = names.clone().all(|word| is_listed(CONTROLS, &word.text) && !is_called(objects, word));
     names.count() > 0 && is_all && is_listed(CONTROLLED, word_at(words, end))
+}
+
+/// `Let the glass do the work`: the lens.
+fn is_lens(words: &[Word], [first, end]: [usize; 2]) -> bool {
+    let text = |at: usize| word_at(words, at);
+    let is_named = words[first..end].iter().all(|word| is_listed("the glass lens optics zoom", &word.text));
+    is_named
+        && is_listed("do does", text(end))
+        && text(end + 1) == "the"
+        && is_listed("work job walking moving", text(end + 2))
+}
+
+/// `The Jaws trick on the plates`: a move that has a film for its name.
+fn is_trick(words: &[Word], [first, end]: [usize; 2]) -> bool {
+    let mut names = words[first..end].iter().map(|word| word.text.as_str()).chain([word_at(words, end)]);
+    let is_film = |word: &str| is_listed("jaws vertigo hitchcock spielberg", word);
+    names.any(is_film) && names.next().is_some_and(|word| is_listed("trick thing effect shot zoom move moment", word))
+}
+
+/// `Let the whole camera sink`: what the camera does, where no thing of the scene is a camera.
+fn is_camera(names: &[Word], objects: &[NamedObject]) -> bool {
+    let has = |list: &str| names.iter().any(|word| is_listed(list, &word.text));
+    let is_label = |object: &NamedObject| object.label.to_lowercase().contains("camera");
+    has("camera cam lens viewpoint")
+        && has("sink rise drop drift float glide climb fall")
+        && !objects.iter().any(is_label)
+}
+
+/// `Counter-clockwise`: the sense of a turn, and no counter.
+fn is_sense(words: &[Word], [first, end]: [usize; 2]) -> bool {
+    let hyphen = usize::from(word_at(words, end) == "-");
+    let is_named = words[first..end].last().is_some_and(|word| is_listed("counter anti contra", &word.text));
+    is_named && matches!(word_at(words, end + hyphen), "clockwise" | "clock")
 }
 
 /// Who somebody is before the noun: `I'm the cat`, `imagine you're our cat`.
@@ -369,6 +406,18 @@ mod tests {
         assert!(!is_none("push in on the toaster", "the toaster"));
         assert!(!is_none("push in on the mouse", "the mouse"));
         assert!(!is_none("my skull ad", "my skull"));
+    }
+
+    #[test]
+    fn lenses_and_tricks_are_no_things() {
+        assert!(is_none("let the glass do the work: close in on the skull", "the glass"));
+        assert!(!is_none("push in on the glass", "the glass"));
+        assert!(is_none("the Jaws trick on the plates", "Jaws"));
+        assert!(is_none("the Jaws trick on the plates", "the Jaws trick"));
+        assert!(!is_none("push in on the jaws of the skull", "the jaws"));
+        assert!(is_none("go round the skull counter-clockwise", "counter"));
+        assert!(is_none("zoom in while the whole camera sinks, let the whole camera sink", "whole camera sink"));
+        assert!(!is_none("go round the counter clockwise, twice", "the skull"));
     }
 
     #[test]

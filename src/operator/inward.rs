@@ -81,9 +81,12 @@ fn loses_subject(world: &World, program: &Program, before: &[MotionSegment], aft
         let Some(step) = program.steps.get(before.step) else { return false };
         let ends = [(&step.start, before.states[0], after.states[0]), (&step.end, before.last(), after.last())];
         let strays = |(framing, before, after): &(&Framing, CameraState, CameraState)| {
-            let first = framing.subjects.first().and_then(|id| world.subject(*id));
+            let id = framing.subjects.first().copied();
+            let first = id.and_then(|id| world.subject(id));
             let off = |state: &CameraState| first.map_or(0.0, |subject| off_center(world, state, subject.center));
-            off(after) > MOST_OFF.max(off(before))
+            // What the film goes on to is not what this picture is of.
+            let upstaged = |state: &CameraState| id.is_some_and(|id| is_upstaged(world, program, id, state));
+            off(after) > MOST_OFF.max(off(before)) || upstaged(after) && !upstaged(before)
         };
         let mut subjects = step.start.subjects.iter().chain(&step.end.subjects).filter_map(|id| world.subject(*id));
         let is_aside = !before.is_join && ends.iter().any(strays);
@@ -94,6 +97,14 @@ fn loses_subject(world: &World, program: &Program, before: &[MotionSegment], aft
                 ends.iter().any(|(before, after)| shown(before) - shown(after) > MOST_LOST)
             })
     })
+}
+
+/// Whether another subject of the film stands nearer to the middle of a picture than the one that it is of.
+fn is_upstaged(world: &World, program: &Program, own: u32, state: &CameraState) -> bool {
+    let off = |id: u32| world.subject(id).map(|subject| off_center(world, state, subject.center));
+    let framings = program.steps.iter().flat_map(|step| [&step.start, &step.end]);
+    let mut others = framings.flat_map(|framing| &framing.subjects).filter(|id| **id != own);
+    off(own).is_some_and(|own| others.any(|id| off(*id).is_some_and(|other| other < own)))
 }
 
 /// Whether a segment stays the move that its words ask for where its cameras look to the side, and where they look up

@@ -20,7 +20,10 @@ impl From<LanguageError> for Failure {
             E::UnknownObject { nearest, .. } if nearest.is_empty() => {
                 (Exit::BadData, "the scene has no named objects: list them with `cinesplat objects SCENE`".to_owned())
             }
-            E::UnknownObject { name, nearest } if nearest.iter().all(|label| is_description(label)) => {
+            // A number that no object has is no name to give.
+            E::UnknownObject { name, nearest }
+                if !name.starts_with("<obj-") && nearest.iter().all(|label| is_description(label)) =>
+            {
                 let objects = "its objects have no names yet: `cinesplat objects SCENE -o objects.json --sheet objects.html` shows them";
                 (
                     Exit::BadData,

@@ -150,6 +150,17 @@ fn trim(words: &mut Range<usize>, sentence: &Sentence) {
     let is_nothing = |word: &super::words::NameWord| {
         word.tag.is_none() && (NOTHING.contains(&word.text.as_str()) || !word.text.starts_with(char::is_alphanumeric))
     };
+    // `Until the locker stands in the middle`: what it does, and no stand.
+    let text = |at: usize| sentence.words.get(at).map_or("", |word| word.text.as_str());
+    let is_verb = words.len() > 1
+        && matches!(text(words.end - 1), "stands" | "sits" | "lies" | "hangs" | "rests" | "looks" | "shows" | "fills")
+        && matches!(text(words.end), "in" | "at" | "on" | "there" | "dead" | "right" | "exactly" | "alone");
+    // `Gliding to the lectern, tip the camera`.
+    let is_tipped = words.len() > 1
+        && text(words.end - 1) == "tip"
+        && text(words.end) == "the"
+        && matches!(text(words.end + 1), "camera" | "frame" | "view" | "picture" | "horizon");
+    words.end -= usize::from(is_verb || is_tipped);
     while words.end > words.start && is_nothing(&sentence.words[words.end - 1]) {
         words.end -= 1;
     }

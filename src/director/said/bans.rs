@@ -39,10 +39,13 @@ pub(crate) fn drop_misplaced_bans(linked: &Linked, program: &mut Program) {
 }
 
 /// Ways of the camera that words ask for by name.
-const WAYS: [&str; 8] = ["truck", "dolly", "track", "crane", "walk", "crawl", "strafe", "slide"];
+const WAYS: [&str; 12] =
+    ["truck", "dolly", "track", "crane", "walk", "crawl", "strafe", "slide", "push", "pull", "orbit", "pedestal"];
+/// Words of who stays for a while.
+const RESTS: [&str; 4] = ["put", "parked", "still", "place"];
 
-/// Takes back a ban of travel that the words say of a turn, where another step travels by name or by a length: `pan right with
-/// your feet planted. Then truck left a metre`.
+/// Takes back a ban of travel that the words say of a turn or of a rest, where another step travels by name: `pan right with
+/// your feet planted. Then truck left a metre`, `0-4 s truck right, 4-6 s stay put`.
 pub(crate) fn keep_travel_bans_to_turns(linked: &Linked, program: &mut Program) {
     let turns =
         program.steps.iter().any(|step| [Motion::Pan, Motion::Tilt].iter().any(|motion| asks_for(step, *motion)));
@@ -52,7 +55,11 @@ pub(crate) fn keep_travel_bans_to_turns(linked: &Linked, program: &mut Program) 
         let is_named = (0..words.len()).any(|at| WAYS.iter().any(|verb| is_form(words[at], verb)) && !is_denied(at));
         Motion::of(step.movement).is_none() && step.movement != Move::Static && is_named
     };
-    if turns && program.steps.iter().any(travels) {
+    let rests = program.steps.iter().any(|step| {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        step.movement == Move::Static && step.duration_secs.is_some() && words.iter().any(|word| RESTS.contains(word))
+    });
+    if (turns || rests) && program.steps.iter().any(travels) {
         program.forbidden.retain(|motion| *motion != Motion::Travel);
     }
 }

@@ -47,42 +47,73 @@ const CIRCLES: [&str; 14] = [
 ];
 
 /// Verbs of a way that ends somewhere behind a circle.
-const ENDS: [&str; 7] = ["end", "finish", "land", "stop", "settle", "arrive", "halt"];
+const ENDS: [&str; 8] = ["end", "finish", "land", "stop", "settle", "arrive", "halt", "come"];
 
-/// Circles what the step before ends on where the words circle `it` and only then end elsewhere: `swoop up to the lamp, circle it
-/// once and land in front of the fridge`.
+/// Circles what the words circle, or what the step before ends on where they circle `it`, and only then ends elsewhere: `swoop up
+/// to the lamp, circle it once and land in front of the fridge`, `.. and come to rest looking at the fridge`.
 pub(crate) fn end_behind_circles(linked: &Linked, direction: &mut Direction) {
-    for nth in (1..direction.program.steps.len()).rev() {
-        let [before, step] = &direction.program.steps[nth - 1..=nth] else { continue };
+    for nth in (0..direction.program.steps.len()).rev() {
+        let step = &direction.program.steps[nth];
         let words = linked.texts_in(step.words.unwrap_or_default());
-        let circled = before.end.subjects.clone();
-        let goal =
-            goal_behind_circle(&words, &|word| linked.slot_at(word)).map(|(id, side)| (linked.expanded(&[id]), side));
-        let Some((goal, is_in_front)) = goal.filter(|(goal, _)| *goal == step.end.subjects) else { continue };
+        let Some(goal) = goal_behind_circle(&words, &|word| linked.slot_at(word)) else { continue };
+        let before = nth.checked_sub(1).map(|before| direction.program.steps[before].end.subjects.clone());
+        let circled = goal.circled.map(|id| linked.expanded(&[id])).or(before).unwrap_or_default();
+        let subjects = linked.expanded(&[goal.id]);
         let num_steps = direction.program.steps.len();
-        if !step.movement.is_circular() || circled.is_empty() || circled == goal || num_steps >= MAX_STEPS {
+        let is_one = subjects != step.end.subjects || circled.is_empty() || circled == subjects;
+        if !step.movement.is_circular() || is_one || num_steps >= MAX_STEPS {
             continue;
         }
-        let side = is_in_front.then_some(SubjectSide::FromFront);
-        let end = Framing { subjects: goal, side, ..Framing::default() };
-        let way = Step { end, words: step.words, speed: step.speed, ..Step::of(Move::Follow) };
+        let side = goal.is_in_front.then_some(SubjectSide::FromFront);
+        let end = Framing { subjects, side, ..Framing::default() };
+        let way = Step {
+            end,
+            words: step.words,
+            speed: step.speed,
+            either_way: goal.movement == Move::PanRight,
+            ..Step::of(goal.movement)
+        };
         direction.program.steps[nth].end = Framing { subjects: circled, ..Framing::default() };
         direction.insert_rest(nth + 1, way);
     }
 }
 
-/// The thing at which words end behind a circle about `it`, and whether they end in front of it.
-fn goal_behind_circle(words: &[&str], slot: &dyn Fn(&str) -> Option<u32>) -> Option<(u32, bool)> {
+/// What words end at behind a circle.
+struct Goal {
+    /// The slot of what is circled; none for `it`.
+    circled: Option<u32>,
+    id: u32,
+    is_in_front: bool,
+    /// How the camera gets there.
+    movement: Move,
+}
+
+/// The thing at which words end behind a circle about another one or about `it`.
+fn goal_behind_circle(words: &[&str], slot: &dyn Fn(&str) -> Option<u32>) -> Option<Goal> {
     let rounds = ["circle", "orbit", "loop", "around", "round", "arc"];
+    let centers = |at: usize| words[at + 1..].iter().take(3).find_map(|word| slot(word));
+    let is_it = |at: usize| matches!(words.get(at + 1), Some(&"it" | &"its"));
     let circles =
-        |at: &usize| rounds.iter().any(|verb| is_form(words[*at], verb)) && words[at + 1..].first() == Some(&"it");
+        |at: &usize| rounds.iter().any(|verb| is_form(words[*at], verb)) && (is_it(*at) || centers(*at).is_some());
     let circle = (0..words.len()).find(circles)?;
     let is_end =
         |at: &usize| ENDS.iter().any(|verb| is_form(words[*at], verb)) && matches!(words[at - 1], "and" | "then" | ",");
     let end = (circle + 2..words.len()).find(is_end)?;
     let behind = words.get(end + 1..)?;
-    let at = behind.iter().take(5).position(|word| slot(word).is_some())?;
-    Some((slot(behind[at])?, behind[..at].contains(&"front")))
+    let at = behind.iter().take(6).position(|word| slot(word).is_some())?;
+    let says = |word: &str| behind[..at].contains(&word);
+    let looks = says("looking") || says("facing");
+    if words[end].starts_with("com") && !says("rest") {
+        return None;
+    }
+    let movement = match (looks, says("up"), says("down")) {
+        (true, true, _) => Move::TiltUp,
+        (true, _, true) => Move::TiltDown,
+        (true, ..) => Move::PanRight,
+        _ => Move::Follow,
+    };
+    let circled = if is_it(circle) { None } else { centers(circle) };
+    Some(Goal { circled, id: slot(behind[at])?, is_in_front: says("front"), movement })
 }
 
 /// Gives a pan without a goal, or a circle about its subject, a full turn where its words lead all the way round and state
@@ -145,7 +176,8 @@ pub(crate) fn close_circles(linked: &Linked, direction: &mut Direction) {
     for nth in (1..direction.program.steps.len()).rev() {
         let [first, second] = [&direction.program.steps[nth - 1], &direction.program.steps[nth]];
         let turns = first.movement.is_circular();
-        let is_open = !matches!(first.amount, Some(Amount::Degrees(_) | Amount::Factor(_)));
+        let is_full = first.amount == Some(Amount::Degrees(360.0));
+        let is_open = is_full || !matches!(first.amount, Some(Amount::Degrees(_) | Amount::Factor(_)));
         let (a, b) = (as_orbit(first.movement), as_orbit(second.movement));
         let goes_on = a == b || first.either_way && a.opposite() == Some(b);
         let words = linked.texts_in(second.words.unwrap_or_default());
@@ -153,8 +185,8 @@ pub(crate) fn close_circles(linked: &Linked, direction: &mut Direction) {
         let is_told = words.iter().any(|word| circles.iter().any(|verb| is_form(word, verb)));
         let is_plain = second.amount.is_none() && second.with.is_empty() && second.duration_secs.is_none();
         let keeps = second.end == Framing::default() || second.end.subjects == first.end.subjects;
-        if turns && is_open && goes_on && second.returns && is_plain && keeps && !is_told && first.words != second.words
-        {
+        let is_own = first.words != second.words && !is_told || is_full && first.words == second.words;
+        if turns && is_open && goes_on && second.returns && is_plain && keeps && is_own {
             let words = first.joint_words(second);
             let one = Step { amount: Some(Amount::Degrees(360.0)), returns: false, words, ..first.clone() };
             direction.join_steps(nth, one);
@@ -178,5 +210,9 @@ mod tests {
         let three = vec![(Move::Follow, vec![5]), (Move::OrbitRight, vec![5]), (Move::Follow, vec![7])];
         assert_eq!(steps("up to <obj-0> , circle it once and land in front of <obj-1>"), three);
         assert_eq!(steps("up to <obj-0> , circle <obj-1> and end there").len(), 2);
+        let looks = steps("up to <obj-0> , circle it once and come to rest looking at <obj-1>");
+        assert_eq!(looks.last(), Some(&(Move::PanRight, vec![7])));
+        let up = steps("once round <obj-0> and end looking up to <obj-1>");
+        assert_eq!(up[1..], [(Move::OrbitRight, vec![5]), (Move::TiltUp, vec![7])]);
     }
 }

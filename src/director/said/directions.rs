@@ -96,7 +96,12 @@ fn take_said_direction(linked: &Linked, step: &mut Step, words: [usize; 2]) {
             continue;
         }
         let is_opposite = |other: &Move| other.opposite() == Some(movement);
-        if step.movement == movement || is_opposite(&step.movement) {
+        // A pedestal that is called so is no crane.
+        let is_upright = matches!(
+            (movement, step.movement),
+            (Move::PedestalUp, Move::CraneUp) | (Move::PedestalDown, Move::CraneDown)
+        );
+        if step.movement == movement || is_opposite(&step.movement) || is_upright {
             step.movement = movement;
             step.either_way = false;
         }

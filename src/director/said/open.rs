@@ -101,7 +101,8 @@ pub(crate) fn reverse_retraced(linked: &Linked, steps: &mut [Step]) {
             );
         let is_again =
             (goes_back || as_orbit(movement) == as_orbit(steps[nth].movement)) && returns_on_itself(movement);
-        let Some(back) = movement.opposite().filter(|_| is_again) else { continue };
+        let is_approach = nears(movement) && nears(steps[nth].movement);
+        let Some(back) = movement.opposite().filter(|_| is_again || is_approach) else { continue };
         // A film that has moved nowhere else ends where it began, whichever way it went.
         let is_open = steps[there].either_way && !steps[..there].iter().any(moving);
         if goes_back && steps[nth].end.subjects.is_empty() {
@@ -115,7 +116,7 @@ pub(crate) fn reverse_retraced(linked: &Linked, steps: &mut [Step]) {
         let sinks = |second: &Move| with.contains(second).then(|| second.opposite()).flatten();
         step.with = step.with.iter().map(|second| sinks(second).unwrap_or(*second)).collect();
         step.either_way = is_open;
-        step.returns |= is_open;
+        step.returns |= is_open || is_approach && there == 0;
         step.movement = if is_open { movement } else { back };
         step.amount = step.amount.or(amount);
     }
@@ -212,13 +213,28 @@ pub(super) fn as_orbit(movement: Move) -> Move {
     }
 }
 
+/// Whether a move brings a subject closer or takes it away, by the camera's way or by its lens.
+fn nears(movement: Move) -> bool {
+    matches!(
+        movement,
+        Move::PushIn | Move::PullOut | Move::ZoomIn | Move::ZoomOut | Move::DollyZoomIn | Move::DollyZoomOut
+    )
+}
+
 /// Whether the opposite move, from where the move ends, leads back to where it began.
 fn returns_on_itself(movement: Move) -> bool {
-    let is_vertical = matches!(
+    let is_straight = matches!(
         movement,
-        Move::TiltUp | Move::TiltDown | Move::PedestalUp | Move::PedestalDown | Move::CraneUp | Move::CraneDown
+        Move::TiltUp
+            | Move::TiltDown
+            | Move::PedestalUp
+            | Move::PedestalDown
+            | Move::CraneUp
+            | Move::CraneDown
+            | Move::ZoomIn
+            | Move::ZoomOut
     );
-    is_vertical || is_sideways(movement)
+    is_straight || is_sideways(movement)
 }
 
 fn is_sideways(movement: Move) -> bool {

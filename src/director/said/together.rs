@@ -92,6 +92,28 @@ pub(crate) fn complete_lists(linked: &Linked, program: &mut Program) {
             add_ids(ids, &lost);
         }
     }
+    complete_shown(linked, &mut program.steps);
+}
+
+/// Sizes and words of a picture that shows all of a list behind them: `end on a wide shot of the television, the vase and the sideboard`.
+const PICTURES: [&str; 6] = ["shot", "view", "picture", "wide", "frame", "together"];
+
+/// Adds to a picture of most of a list what earlier steps show, too.
+fn complete_shown(linked: &Linked, steps: &mut [Step]) {
+    let words: Vec<(&str, [usize; 2])> = linked.words_in([0, usize::MAX]).collect();
+    for things in joined_things(linked).into_iter().filter(|things| things.len() > 2) {
+        let Some(first) = words.iter().position(|(_, span)| *span == things[0].1) else { continue };
+        let is_picture = words[first.saturating_sub(3)..first].iter().any(|(word, _)| PICTURES.contains(word));
+        let ids: Vec<u32> = linked.expanded(&things.iter().map(|(id, _)| *id).collect::<Vec<_>>());
+        let holds = |step: &&mut Step| step.words.is_some_and(|[from, to]| (from..to).contains(&things[0].1[0]));
+        for step in steps.iter_mut().filter(holds).filter(|_| is_picture) {
+            for framing in [&mut step.start, &mut step.end] {
+                if framing.subjects.len() > 1 && framing.subjects.iter().all(|id| ids.contains(id)) {
+                    add_ids(&mut framing.subjects, &ids);
+                }
+            }
+        }
+    }
 }
 
 /// The list of a step's ids that has one of the things: of its end, its start, or what stays in view.
@@ -131,7 +153,11 @@ pub(crate) fn show_both(linked: &Linked, steps: &mut [Step]) {
         let near = &words[at + 1..words.len().min(at + 7)];
         let next = near.first().map_or("", |(word, _)| word);
         let has = |list: &[&str]| near.iter().any(|(word, _)| list.contains(word));
-        let is_seen = has(&SEEN) && !has(&DENIALS);
+        // `End wide with both + the sideboard`.
+        let before = &words[at.saturating_sub(2)..at];
+        let is_wide = before.iter().any(|(word, _)| *word == "wide" || *word == "with")
+            && words[at.saturating_sub(4)..at].iter().any(|(word, _)| *word == "wide");
+        let is_seen = (has(&SEEN) || is_wide) && !has(&DENIALS);
         if PARTS.contains(&next) || linked.slot_at(next).is_some() || next == "the" || !is_seen {
             continue;
         }
@@ -141,6 +167,10 @@ pub(crate) fn show_both(linked: &Linked, steps: &mut [Step]) {
         for step in steps.iter_mut().filter(holds) {
             let framing = if step.end.subjects.is_empty() { &mut step.start } else { &mut step.end };
             show_pair(framing, [first, second]);
+            let adds = is_wide && JOINTS.contains(&next) && framing.whole;
+            if adds && framing.subjects.iter().all(|id| !linked.expanded(&[first, second]).contains(id)) {
+                add_ids(&mut framing.subjects, &linked.expanded(&[first, second]));
+            }
         }
     }
 }

@@ -21,8 +21,12 @@ const BANNED: &str = "any a the or and , pan panning tilt tilting turn turning r
 pub(crate) fn travel_instead_of_turning(linked: &Linked, program: &mut Program) {
     let forbidden = program.forbidden.clone();
     for step in &mut program.steps {
-        let Some(travel) = travel_of(step.movement).filter(|_| step.start.subjects.is_empty()) else { continue };
         let words = linked.texts_in(step.words.unwrap_or_default());
+        if let Some(travel) = travel_of(step.movement).filter(|_| names_slide(&words, side(step.movement))) {
+            (step.movement, step.either_way) = (travel, false);
+            continue;
+        }
+        let Some(travel) = travel_of(step.movement).filter(|_| step.start.subjects.is_empty()) else { continue };
         let is_banned = Motion::of(step.movement).is_some_and(|motion| forbidden.contains(&motion))
             || forbidden.contains(&Motion::Turn);
         let is_ruled_out = is_banned && !asks_for_turn(&words) && words.contains(&side(step.movement));
@@ -30,6 +34,15 @@ pub(crate) fn travel_instead_of_turning(linked: &Linked, program: &mut Program) 
             (step.movement, step.either_way) = (travel, false);
         }
     }
+}
+
+/// Whether the words name a travel to a side and no turn: `truck right until the plates are out of frame`.
+fn names_slide(words: &[&str], side: &str) -> bool {
+    let is_slide = |at: usize| {
+        ["truck", "crab", "strafe"].iter().any(|verb| is_form(words[at], verb)) && words.get(at + 1) == Some(&side)
+    };
+    let turns = |word: &&str| TURNS.iter().any(|verb| is_form(word, verb));
+    (0..words.len()).any(is_slide) && !words.iter().any(turns)
 }
 
 /// Goes along what the network begins a way in at where the words go along it: `move forward along the length of the table, keeping

@@ -21,12 +21,32 @@ pub(super) const WALL_RADII: f64 = 3.0;
 /// Share of the frame that a lone thing fills at the end of a push toward it.
 const LONE_END: (f64, f64) = (0.8, 0.94);
 
-/// The distance ratio of a push toward a lone thing, at which it fills the picture; `None` in a room.
+/// The same in a room, where the words name no size. What ends smaller is lost among the things around it.
+pub(super) const ROOM_END: (f64, f64) = (0.55, 0.88);
+/// Distance ratios of a push in a room to a thing whose size the words leave open.
+const OPEN_RATIOS: (f64, f64) = (0.22, 0.56);
+
+/// Largest size of a subject's splats over the frame's height to which a move brings it by itself.
+const SOFT_FRAC: f64 = 13.0 / 720.0;
+
+/// Ratio of the distances, or of the tangents of half the fields of view, beyond which a subject is only seen softer and not better.
+pub(super) fn soft_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f64 {
+    let subject = target.ids.first().and_then(|id| context.world.subject(*id));
+    let reach = 2.0 * first.pose.position.distance(target.aim) * (first.fov_y_rad / 2.0).tan();
+    subject.map_or(0.0, |subject| subject.splat_size / (reach * SOFT_FRAC))
+}
+
+/// The distance ratio of a push at which its subject fills the picture; `None` without a subject, and where a lone thing fills it
+/// before.
 fn filling_ratio(context: &StepContext, target: &Target, first: &CameraState) -> Option<f64> {
-    let alone = !context.world.is_indoor() && !target.ids.is_empty();
     let now = extent_frac(context.world, first, &target.corners).max_element();
+    if context.world.is_indoor() {
+        let ratio = now / lerp(ROOM_END, context.parameters[6]);
+        let least = soft_ratio(context, target, first).clamp(OPEN_RATIOS.0, OPEN_RATIOS.1);
+        return (!target.ids.is_empty()).then_some(ratio.clamp(least, OPEN_RATIOS.1));
+    }
     let ratio = now / lerp(LONE_END, context.parameters[6]);
-    (alone && ratio < 0.74).then_some(ratio.max(0.3))
+    (!target.ids.is_empty() && ratio < 0.74).then_some(ratio.max(0.3))
 }
 
 /// Distance at the end over that at the start.

@@ -23,7 +23,7 @@ pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
             let there = end_view(context, &target, before);
             (vec![context.join(*before, there)], there)
         }
-        Some(before) if named && off_center(context.world, before, target.aim) > HELD_OFF => {
+        Some(before) if named && off_center(context.world, before, target.aim) > held_off(context, &target) => {
             context.turned_to(before, target.aim)
         }
         Some(before) => (Vec::new(), *before),
@@ -74,6 +74,8 @@ const PORTRAIT_FILL: (f64, f64) = (0.58, 0.78);
 const GROUP_FILL: (f64, f64) = (0.76, 0.94);
 /// Largest distance from the frame's middle of a subject that a hold after another step leaves where it is.
 const HELD_OFF: f64 = 0.2;
+/// The same of a subject that the film comes to with the hold: `the chest, the palm, the skull, two seconds each`.
+const COME_TO_OFF: f64 = 0.06;
 /// Distance of the thirds from the frame's middle, over its width.
 const THIRD: f64 = 1.0 / 6.0;
 /// Largest width of a subject that is placed on a third, over the frame's width: a wider one would nearly touch the
@@ -82,6 +84,12 @@ const MAX_THIRD_WIDTH: f64 = 0.45;
 
 /// Least sine of the angle between the view axis and the front of a subject that faces a side of the picture.
 const LEAST_ACROSS: f64 = 0.3;
+
+/// Largest distance from the frame's middle of the hold's subject where the camera need not turn to it.
+fn held_off(context: &StepContext, target: &Target) -> f64 {
+    let is_new = context.earlier.as_ref().is_some_and(|earlier| !target.ids.iter().any(|id| earlier.ids.contains(id)));
+    if is_new && !context.forbids_turning() { COME_TO_OFF } else { HELD_OFF }
+}
 
 /// Whether the composition of a held view is free: one subject, no stated size, part or angle, and no later step that
 /// needs the subject in the middle.

@@ -1,6 +1,7 @@
 //! Moves of the lens: zoom, dolly zoom.
 
 use super::context::{StepContext, require_visible};
+use super::dolly_length::{ROOM_END, soft_ratio};
 use crate::composition::lens_fov_deg;
 use crate::constraint::{ConstraintKind, Scope};
 use crate::framing::{Fill, Target, extent_frac, in_frame_frac};
@@ -54,6 +55,8 @@ impl StepContext<'_> {
     }
 }
 
+/// Ratios of a zoom in whose size the words leave open.
+const OPEN_RATIOS: (f64, f64) = (0.24, 0.56);
 /// Vertical field of view that shows a room, degrees.
 const ROOM_LENS_DEG: (f64, f64) = (54.0, 70.0);
 
@@ -63,9 +66,19 @@ fn ends_on_room(context: &StepContext) -> bool {
     end.subjects.is_empty() && matches!(end.size, Some(ShotSize::Long | ShotSize::ExtremeLong))
 }
 
+/// The ratio of a zoom in without a stated size: in a room its subject fills the picture at the end.
+fn inward_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f64 {
+    if !context.world.is_indoor() || target.ids.is_empty() {
+        return lerp((0.38, 0.56), context.parameters[6]);
+    }
+    let now = extent_frac(context.world, first, &target.corners).max_element();
+    let least = soft_ratio(context, target, first).clamp(OPEN_RATIOS.0, OPEN_RATIOS.1);
+    (now / lerp(ROOM_END, context.parameters[6])).clamp(least, OPEN_RATIOS.1)
+}
+
 /// Tangent of half the field of view at the end, over that at the start.
 fn zoom_ratio(context: &StepContext, target: &Target, first: &CameraState, inward: bool) -> f64 {
-    let open = if inward { lerp((0.38, 0.56), context.parameters[6]) } else { lerp((1.7, 2.4), context.parameters[6]) };
+    let open = if inward { inward_ratio(context, target, first) } else { lerp((1.7, 2.4), context.parameters[6]) };
     let height = extent_frac(context.world, first, &target.corners).y;
     let by_size = fill_in(context.world, &context.step.end, context.parameters[7]).map(|fill| match fill {
         Fill::Height(wanted) | Fill::Fit(wanted) => height / wanted,

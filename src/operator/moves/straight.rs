@@ -74,7 +74,9 @@ fn slide(
         .and_then(|via| Target::of(context.world, &Framing { subjects: via.objects.clone(), ..Framing::default() }));
     let same = matches!((&context.start, &context.end), (Some(a), Some(b)) if a.ids.first() == b.ids.first())
         && context.step.start.part == context.step.end.part;
-    let travels = context.end.is_some() && !same && (context.start.is_some() || context.before.is_some());
+    // What is to be gone from the frame at the end is nothing to slide to.
+    let leaves = context.step.end.hidden;
+    let travels = context.end.is_some() && !same && !leaves && (context.start.is_some() || context.before.is_some());
     let target =
         if travels { context.opening_target() } else { passed.clone().unwrap_or_else(|| context.main_target()) };
     let (mut segments, mut first) = match (&context.before, &context.start) {
