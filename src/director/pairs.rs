@@ -133,6 +133,19 @@ pub(crate) fn name_pairs(
             let Some(group) = own.group else { continue };
             blanks.extend(leads(prompt, found, group, bytes[0]).then_some([group[0], bytes[0]]));
         }
+        if let (Phrase::Other, Some(first)) = (&phrase, own.last)
+            && let Some(one) = led_from(prompt, places, found, first, &own.ids)
+        {
+            let other = own.ids.iter().copied().find(|id| *id != one).unwrap_or(one);
+            found
+                .iter_mut()
+                .filter(|found| found.mention.ids == [first])
+                .for_each(|found| found.mention.ids = vec![one]);
+            (own.last, own.is_told) = (Some(other), true);
+            replace_mentions(found, Mention { bytes, ids: vec![other] });
+            at += len - 1;
+            continue;
+        }
         if let [id] = ids[..] {
             (own.last, own.is_told) = (Some(id), true);
         }
@@ -144,6 +157,16 @@ pub(crate) fn name_pairs(
     let is_blank = |at: usize| blanks.iter().any(|[from, to]| (*from..*to).contains(&at));
     found.retain(|found| !is_blank(found.mention.bytes[0]));
     blanks
+}
+
+/// The one of two from which a slide or a pan to a side leads, where the words say `one` of it: `truck right from one cactus to the
+/// other` begins at the left one.
+fn led_from(prompt: &str, places: Places<'_>, found: &[FoundMention], first: u32, ids: &[u32]) -> Option<u32> {
+    let mention = found.iter().find(|found| found.mention.ids == [first])?;
+    let is_open = tokenize(said(prompt, &mention.mention)).first().is_some_and(|word| word.text == "one");
+    let before = tokenize(prompt.get(..mention.mention.bytes[0])?);
+    let side = before.iter().rev().take(9).find(|word| is_listed("left right", &word.text)).filter(|_| is_open)?;
+    outermost(places, ids, if side.text == "right" { Flank::Left } else { Flank::Right })
 }
 
 /// Whether words are those of the gap between two things, or of two that something goes between.

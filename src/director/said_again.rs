@@ -1,6 +1,6 @@
 //! A noun that is said again: `orbit the orange armchair, keep the chair centered` is about one chair.
 
-use cinesplat_language::{NamedObject, is_listed, tokenize};
+use cinesplat_language::{Mention, NamedObject, is_listed, tokenize};
 
 use crate::explained::{content, head, is_number, label, said};
 use crate::names::FoundMention;
@@ -37,8 +37,10 @@ pub(crate) fn point_to_said(prompt: &str, objects: &[NamedObject], found: &mut [
             let [own, other] = [id, later.ids[0]].map(|id| label(objects, id).map(content).unwrap_or_default());
             names(id).as_ref() == Some(&kind) && (told.is_subset(&own) || other.is_disjoint(&told))
         };
+        // `Bookshelf 3` has a number and is called so, too.
+        let is_called = |mention: &Mention| !content(said(prompt, mention)).is_disjoint(&told);
         let earlier = before.iter().rev().find_map(|found| match found.mention.ids[..] {
-            [id] if is_alike(id) && !is_number(said(prompt, &found.mention)) => Some(id),
+            [id] if is_alike(id) && (!is_number(said(prompt, &found.mention)) || is_called(&found.mention)) => Some(id),
             _ => None,
         });
         if let Some(id) = earlier {
@@ -51,7 +53,6 @@ pub(crate) fn point_to_said(prompt: &str, objects: &[NamedObject], found: &mut [
 mod tests {
     use super::*;
     use crate::said::fixture::labelled;
-    use cinesplat_language::Mention;
 
     fn pointed(prompt: &str, mentions: &[(&str, u32)]) -> Vec<u32> {
         let objects = labelled(&["orange armchair", "blue armchair", "table lamp 1", "table lamp 2", "sofa"]);
@@ -73,6 +74,8 @@ mod tests {
         assert_eq!(pointed(orbit, &[("the orange armchair", 1), ("the chair", 2)]), [1, 1]);
         let bare = "vertigo on the orange armchair, chair stays the same size";
         assert_eq!(pointed(bare, &[("the orange armchair", 1), ("chair", 2)]), [1, 1]);
+        let numbered = "rack to table lamp 2, then push in on the lamp";
+        assert_eq!(pointed(numbered, &[("table lamp 2", 4), ("the lamp", 3)]), [4, 4]);
     }
 
     #[test]

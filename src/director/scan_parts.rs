@@ -33,6 +33,7 @@ pub(crate) fn own_parts(
         point_to_ends(prompt, objects, (places, whole), found)?;
         point_to_whole(prompt, objects, (places, whole), found)?;
         link_parts(prompt, objects, (places, whole), found)?;
+        link_whole(prompt, (places, whole), found);
     }
     let mut named: Vec<u32> = found.iter().flat_map(|found| found.mention.ids.clone()).collect();
     named.dedup();
@@ -89,6 +90,35 @@ pub(crate) fn described_part(words: &str, label: &str, is_whole: bool) -> Result
             part => part_of(part, label),
         },
         _ => Ok(None),
+    }
+}
+
+/// Words of all of a thing, a part of which was named before.
+const ALL: [&[&str]; 7] = [
+    &["all", "of", "it"],
+    &["the", "whole", "of", "it"],
+    &["the", "whole", "thing"],
+    &["the", "entire", "thing"],
+    &["the", "full", "thing"],
+    &["the", "complete", "thing"],
+    &["the", "lot"],
+];
+
+/// Links words of all of it to the whole thing, where a part that is an object of its own was named before: `start close on the body
+/// of the guitar, pull back to see all of it`.
+fn link_whole(prompt: &str, (places, whole): (Places<'_>, &Object), found: &mut Vec<FoundMention>) {
+    let is_part = |id: u32| places.objects.iter().any(|object| object.id == id && object.parent == Some(whole.id));
+    let words = tokenize(prompt);
+    for at in 0..words.len() {
+        let says = |phrase: &&&[&str]| {
+            phrase.iter().enumerate().all(|(nth, word)| words.get(at + nth).is_some_and(|own| own.text == *word))
+        };
+        let Some(phrase) = ALL.iter().find(says) else { continue };
+        let bytes = [words[at].span[0], words[at + phrase.len() - 1].span[1]];
+        let last = found.iter().rev().find(|found| found.mention.bytes[1] <= bytes[0]);
+        if last.is_some_and(|last| matches!(last.mention.ids[..], [id] if is_part(id))) && !is_linked(found, bytes) {
+            insert_mention(found, Mention { bytes, ids: vec![whole.id] });
+        }
     }
 }
 
@@ -287,6 +317,8 @@ mod tests {
         assert_eq!(ids("down to the feet of the stand", &[("the feet of the stand", &[3])]), [[1]]);
         assert_eq!(ids("down to the foot", &[("the foot", &[2])]), [[2]]);
         assert_eq!(ids("in on the eye socket", &[]), [[1]]);
+        let all = "close on the body, pull back to see all of it";
+        assert_eq!(ids(all, &[("the body", &[2])]), [[2], [1]]);
         // The pegs are a part of necks.
         assert_eq!(ids("the neck and its pegs", &[("the neck", &[3]), ("its pegs", &[])]), [[3], [3]]);
     }

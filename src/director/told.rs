@@ -36,7 +36,8 @@ const SHOWS: &str =
 const DEEDS: &str = "scanned sells sell loves love hates hate bought built painted restored inherited moved rents selling made borrowed";
 const PRONOUNS: &str = "it them him her its their they this that there here";
 /// What a film is called in its title.
-const FILMS: &str = "film video clip reel ad advert advertisement trailer teaser spot short promo opener header";
+const FILMS: &str = "film video clip reel ad advert advertisement trailer teaser spot short promo opener header campaign commercial catalogue \
+    catalog brochure listing";
 const ABOUT: &str = "for of about on";
 
 /// The words without the sentences that only tell something, where others ask for the film; `None` where there are none.

@@ -103,6 +103,7 @@ pub fn is_no_thing(prompt: &str, mention: &Mention, objects: &[NamedObject]) -> 
         || is_trick(&words, [first, end])
         || is_sense(&words, [first, end])
         || is_camera(&words[first..end], objects)
+        || is_corner(&words[first..end], objects)
 }
 
 /// What people end a message with.
@@ -157,6 +158,13 @@ fn is_camera(names: &[Word], objects: &[NamedObject]) -> bool {
     has("camera cam lens viewpoint")
         && has("sink rise drop drift float glide climb fall")
         && !objects.iter().any(is_label)
+}
+
+/// `The whole corner`: a part of the room, where no thing of the scene is called so.
+fn is_corner(names: &[Word], objects: &[NamedObject]) -> bool {
+    let is_all =
+        names.iter().all(|word| is_listed("the a this that whole entire far other opposite corner", &word.text));
+    is_all && names.last().is_some_and(|word| word.text == "corner" && !is_called(objects, word))
 }
 
 /// `Counter-clockwise`: the sense of a turn, and no counter.

@@ -229,8 +229,12 @@ fn mentioned(linked: &Linked, subjects: &[u32]) -> Vec<Vec<u32>> {
 /// The words but those that stand for a part of a thing: `the back` of an armchair is no way.
 fn said<'a>(linked: &Linked, words: &[&'a str]) -> Vec<&'a str> {
     let spans = &linked.spans;
+    // The words of an idiom stand for the same bytes as well: `spin round the guitar`.
+    let is_idiom =
+        |at: usize| (0..words.len()).any(|other| spans.get(other) == spans.get(at) && is_camera_verb(words, other));
     let stands_for_part = |at: usize| {
         (at + 1..words.len().min(at + 5)).any(|next| spans.get(next) == spans.get(at) && words[next].starts_with('<'))
+            && !is_idiom(at)
     };
     (0..words.len()).filter(|at| !stands_for_part(*at)).map(|at| words[at]).collect()
 }

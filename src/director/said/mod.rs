@@ -112,6 +112,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     sweeps::join_sweeps(linked, direction);
     sweeps::land_on(linked, direction);
     repeats::drop_restated(direction);
+    repeats::join_opening(linked, direction);
     repeats::join_told_circles(linked, direction);
     splits::split_moves(linked, direction);
     together::complete_lists(linked, &mut direction.program);
@@ -307,6 +308,7 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     denied::drop_denied(linked, direction);
     sides::see_obliquely(linked, &mut direction.program.steps);
     relative::level_lifts(&mut direction.program);
+    relative::lift_straight(linked, &mut direction.program);
     bans::keep_travel_bans_to_turns(linked, &mut direction.program);
     backdrops::set_backdrops(linked, &mut direction.program.steps);
 }

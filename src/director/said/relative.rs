@@ -234,6 +234,19 @@ pub(crate) fn level_lifts(program: &mut Program) {
     }
 }
 
+/// Turns nowhere on a way that is said to go straight up or down from one thing to another: `boom straight up from the drawers until
+/// we're level with the plates`.
+pub(crate) fn lift_straight(linked: &Linked, program: &mut Program) {
+    let [step] = &mut program.steps[..] else { return };
+    let words = linked.texts_in(step.words.unwrap_or_default());
+    let is_straight = words.windows(2).any(|pair| pair[0] == "straight" && matches!(pair[1], "up" | "down"));
+    let is_lift = matches!(step.movement, Move::PedestalUp | Move::PedestalDown) && step.with.is_empty();
+    let leads = !step.start.subjects.is_empty() && !step.end.subjects.is_empty();
+    if is_lift && is_straight && leads && step.look.is_none() && step.start.subjects != step.end.subjects {
+        program.forbid(Motion::Turn);
+    }
+}
+
 /// Verbs of the end of a way, before `on` what it ends on.
 const STOPS: [&str; 7] = ["stop", "end", "finish", "settle", "land", "halt", "rest"];
 

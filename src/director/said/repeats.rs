@@ -7,6 +7,7 @@ use cinesplat_language::{LanguageError, Linked, Senses, add_ids, is_listed};
 use cinesplat_operator::{Amount, Framing, Look, Pass, Speed, Step};
 use cinesplat_trajectory::Move;
 
+use super::briefs::is_camera_verb;
 use super::open::as_orbit;
 use super::senses::says;
 use crate::direction::Direction;
@@ -111,6 +112,36 @@ pub(crate) fn join_told_circles(linked: &Linked, direction: &mut Direction) {
             ..first.clone()
         };
         direction.join_steps(nth, one);
+    }
+}
+
+/// Verbs of a first picture.
+const OPENS: &str = "start starts starting begin begins beginning open opens opening";
+
+/// Makes one step of a move and of the picture before it from which it starts, which the network reads as the same move twice: `start:
+/// floor level in front of the palm / move: jib up to eye height`.
+pub(crate) fn join_opening(linked: &Linked, direction: &mut Direction) {
+    let [first, second, ..] = &direction.program.steps[..] else { return };
+    let words = linked.texts_in(first.words.unwrap_or_default());
+    let opens = words.iter().any(|word| is_listed(OPENS, word));
+    let moves = (0..words.len()).any(|at| !is_listed(OPENS, words[at]) && is_camera_verb(&words, at));
+    let is_picture =
+        first.end == Framing { subjects: first.end.subjects.clone(), lens: first.end.lens, ..Framing::default() };
+    let same = first.movement == second.movement
+        && first.movement != Move::Static
+        && first.with == second.with
+        && first.end.subjects == second.end.subjects;
+    let goes_on =
+        !second.cut && second.start == Framing::default() && first.amount.is_none() && first.duration_secs.is_none();
+    if opens && !moves && is_picture && same && goes_on && first.start != Framing::default() {
+        let lens = second.end.lens.or(first.end.lens);
+        let one = Step {
+            start: first.start.clone(),
+            end: Framing { lens, ..second.end.clone() },
+            words: first.joint_words(second),
+            ..second.clone()
+        };
+        direction.join_steps(1, one);
     }
 }
 

@@ -151,6 +151,8 @@ pub(crate) fn show_both(linked: &Linked, steps: &mut [Step]) {
     let words: Vec<(&str, [usize; 2])> = linked.words_in([0, usize::MAX]).collect();
     for (at, (_, span)) in words.iter().enumerate().filter(|(_, (word, _))| *word == "both") {
         let near = &words[at + 1..words.len().min(at + 7)];
+        let ends = |(word, _): &(&str, [usize; 2])| matches!(*word, "." | ";" | "!");
+        let near = near.split(ends).next().unwrap_or_default();
         let next = near.first().map_or("", |(word, _)| word);
         let has = |list: &[&str]| near.iter().any(|(word, _)| list.contains(word));
         // `End wide with both + the sideboard`.

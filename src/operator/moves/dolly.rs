@@ -20,6 +20,8 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     let fill = match (inward, context.world.is_indoor()) {
         (true, true) => (0.24, 0.45),
         (true, false) => LONE_START,
+        // What is to be seen whole at the end is not at the start.
+        (false, false) if shows_all(context, &target) => CROPPED_FILL,
         (false, _) => (0.6, 0.95),
     };
     if let Some(start) = from_another(context, &target, inward) {
@@ -325,6 +327,15 @@ fn open_first(context: &StepContext, target: &Target, inward: bool, fill: (f64, 
     let distance = end.pose.position.distance(target.aim);
     let back = lerp((1.4, 2.8), context.parameters[6]);
     moved(&end, -end.pose.forward() * distance * back)
+}
+
+/// Size in the frame of a lone thing of which a pull-out begins to show all.
+const CROPPED_FILL: (f64, f64) = (1.7, 2.4);
+
+/// Whether a pull-out leads to all of its own subject.
+fn shows_all(context: &StepContext, target: &Target) -> bool {
+    let end = &context.step.end;
+    end.whole && !target.ids.is_empty() && (end.subjects.is_empty() || end.subjects == target.ids)
 }
 
 /// Size from which a camera goes in on a lone thing, before the factor of such things.

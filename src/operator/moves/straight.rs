@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::compose::{turn_between, turned_by};
 use super::context::{StepContext, require_visible};
 use super::passes::gate;
 use super::standing_view::stands;
@@ -121,6 +122,8 @@ fn slide(
     let last = moved(&first, along(&first) * way);
     let sized = context.end.as_ref().filter(|_| travels && !direction.is_vertical());
     let last = sized.map_or(last, |end| resized(context, &last, end, way));
+    let risen = context.end.as_ref().filter(|_| travels && direction.is_vertical());
+    let last = risen.map_or(last, |end| facing(context, &last, end));
     let mut segment = context.segment(vec![first, last]);
     let slight = matches!(context.step.amount, Some(Amount::Slight | Amount::Units(_)))
         || !travels && keeps_picture(context, direction, &target);
@@ -145,6 +148,17 @@ fn slide(
     }
     segments.push(context.constrained_at_end(context.constrained_at_start(segment)));
     segments
+}
+
+/// Turns to the side at the end of a rise or a descent that bring its goal to the middle, radians: less is not seen, and more is
+/// a pan.
+const FACING_RAD: (f64, f64) = (0.05, 0.6);
+
+/// The last camera of a rise or a descent, turned to the side so that the thing to which it leads is in the middle.
+fn facing(context: &StepContext, last: &CameraState, end: &Target) -> CameraState {
+    let (yaw_rad, _) = turn_between(context, last, &aimed(context.world, last, end.aim));
+    let is_turn = (FACING_RAD.0..FACING_RAD.1).contains(&yaw_rad.abs());
+    if is_turn && !context.forbids_turning() { turned_by(context, last, (yaw_rad, 0.0)) } else { *last }
 }
 
 /// The last camera of a slide, nearer or farther where the words state another size for its end; it stays a slide.
