@@ -15,6 +15,7 @@ use glam::{DQuat, DVec3, Vec3};
 use crate::acting::acts;
 use crate::alternatives::without_denied_turns;
 use crate::banned::name_banned;
+use crate::bearers::drop_other_bearers;
 use crate::beats::direct_beats;
 use crate::codes::{self, Field, KeyCode, NEXT_SEGMENT, PoseCode};
 use crate::compositions::direct_composed;
@@ -159,6 +160,7 @@ impl Director {
         let led = name_pairs(prompt, objects, places, &mut found);
         let prompt = &*blanked(prompt, &led);
         absorb_places(prompt, objects, &mut found)?;
+        drop_other_bearers(prompt, objects, places, &mut found);
         point_back(prompt, objects, &mut found);
         point_ones(prompt, objects, &mut found);
         drop_first_ones(prompt, &mut found);

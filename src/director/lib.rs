@@ -18,6 +18,7 @@
 mod acting;
 mod alternatives;
 mod banned;
+mod bearers;
 mod beats;
 mod calibration;
 pub mod codes;

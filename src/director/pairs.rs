@@ -367,6 +367,24 @@ mod tests {
     }
 
     #[test]
+    fn a_slide_from_one_to_the_other_begins_at_the_side_that_it_leaves() {
+        let led = |prompt: &str| named(prompt, &[("one teapot", &[1])]).0;
+        assert_eq!(led("truck right from one teapot to the other"), [[1], [2]]);
+        assert_eq!(led("truck left from one teapot to the other"), [[2], [1]]);
+    }
+
+    #[test]
+    fn the_other_one_of_two_with_one_noun_is_told_by_it() {
+        let objects = [(1, "left armchair"), (2, "right armchair"), (3, "sofa")]
+            .map(|(id, label)| NamedObject { id, label: label.to_owned() });
+        let prompt = "not the left armchair, the other one";
+        let mention = Mention { bytes: [4, 21], ids: vec![1] };
+        let mut found = vec![FoundMention { mention, probability: 1.0, nearest: Vec::new() }];
+        name_pairs(prompt, &objects, Places { objects: &[], up: DVec3::Y }, &mut found);
+        assert_eq!(found[1].mention.ids, [2]);
+    }
+
+    #[test]
     fn other_pairs_stay() {
         assert_eq!(named("the teapots on both sides", &[("the teapots", &[1, 2])]).0, [[1, 2]]);
         assert_eq!(named("show the teapots one after the other", &[("the teapots", &[1, 2])]).0, [[1, 2]]);

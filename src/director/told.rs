@@ -90,7 +90,7 @@ fn parts_at_so<'a>(sentence: &'a [(&'a str, [usize; 2])]) -> impl Iterator<Item 
 fn gives_reason(linked: &Linked, words: &[&str], next: &[&str]) -> bool {
     let is_thing = |word: &&str| linked.slot_at(word).is_some();
     let first = next.iter().position(|word| is_thing(word) || is_listed(PRONOUNS, word));
-    let is_named = !words.iter().any(|word| is_thing(word)) || first.is_some_and(|at| is_thing(&next[at]));
+    let is_named = !words.iter().any(&is_thing) || first.is_some_and(|at| is_thing(&next[at]));
     let has = |list: &str| words.iter().any(|word| is_listed(list, word));
     matches!(next.first(), Some(&("so" | ",")))
         && words.len() >= FEWEST_WORDS

@@ -285,6 +285,24 @@ mod tests {
     }
 
     #[test]
+    fn a_mistake_is_taken_back() {
+        let right = Some("turn to <obj-1> and stop".to_owned());
+        assert_eq!(corrected("turn to <obj-0> , wait , my mistake , <obj-1> and stop"), right);
+    }
+
+    #[test]
+    fn what_is_denied_before_what_is_meant_is_left_out() {
+        let left = |text: &str| {
+            let spans = (0..text.split(' ').count()).map(|at| [at, at]).collect();
+            let linked = Linked { tokens_text: text.to_owned(), spans, slots: vec![7, 4], ..Linked::default() };
+            linked.without_denied().map(|linked| linked.tokens_text)
+        };
+        assert_eq!(left("not <obj-0> , <obj-1> : push in").as_deref(), Some("<obj-0> : push in"));
+        assert_eq!(left("push in but not <obj-0> , <obj-1> : yes"), None);
+        assert_eq!(left("not <obj-0> , <obj-1> or the door"), None);
+    }
+
+    #[test]
     fn a_way_is_turned_around() {
         let reversed = |text: &str| {
             let spans = (0..text.split(' ').count()).map(|at| [at, at]).collect();

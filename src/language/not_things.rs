@@ -424,7 +424,7 @@ mod tests {
         assert!(is_none("the Jaws trick on the plates", "the Jaws trick"));
         assert!(!is_none("push in on the jaws of the skull", "the jaws"));
         assert!(is_none("go round the skull counter-clockwise", "counter"));
-        assert!(is_none("zoom in while the whole camera sinks, let the whole camera sink", "whole camera sink"));
+        assert!(is_none("zoom in, let the whole camera sink", "whole camera sink"));
         assert!(!is_none("go round the counter clockwise, twice", "the skull"));
     }
 

@@ -5,6 +5,7 @@ mod clearance;
 mod composition;
 mod crowded;
 mod edges;
+mod ends;
 mod finalists;
 mod flow;
 mod forbidden;

@@ -13,7 +13,7 @@ use super::{film, room, solved, wall};
 const HALF: DVec3 = DVec3::new(0.3, 0.9, 0.3);
 
 /// A box that is all that was captured.
-fn lone() -> World {
+pub(super) fn lone() -> World {
     let mut gaussians = Gaussians::default();
     for axis in 0..3 {
         let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);

@@ -136,4 +136,15 @@ mod tests {
         assert!(is_kept("pan right , planted . then on to <obj-1>"));
         assert!(is_kept("pan right , planted . then do not truck to <obj-1>"));
     }
+
+    #[test]
+    fn a_rest_among_ways_bans_no_travel() {
+        let text = "truck right along <obj-0> , stay put , push in on <obj-1>";
+        let [rest, way] = [text.find("stay").unwrap(), text.find("push").unwrap()];
+        let still = Step { duration_secs: Some(2.0), ..about(Move::Static, &[], [rest, way]) };
+        let steps = vec![about(Move::TruckRight, &[5], [0, rest]), still, about(Move::PushIn, &[7], [way, text.len()])];
+        let mut program = Program { steps, forbidden: vec![Motion::Travel], ..Program::default() };
+        keep_travel_bans_to_turns(&linked(text), &mut program);
+        assert_eq!(program.forbidden, []);
+    }
 }

@@ -116,6 +116,21 @@ fn goal_behind_circle(words: &[&str], slot: &dyn Fn(&str) -> Option<u32>) -> Opt
     Some(Goal { circled, id: slot(behind[at])?, is_in_front: says("front"), movement })
 }
 
+/// Rests on the picture with which a circle about another thing is said to begin: `close up of the laptop, then orbit the desk`.
+pub(crate) fn begin_before_circles(direction: &mut Direction) {
+    let [first, ..] = &direction.program.steps[..] else { return };
+    let (start, end) = (&first.start, &first.end);
+    let is_other = !start.subjects.is_empty() && !end.subjects.iter().any(|id| start.subjects.contains(id));
+    let is_picture = start.size.is_some() && !end.subjects.is_empty();
+    if !first.movement.is_circular() || !is_other || !is_picture || direction.program.steps.len() >= MAX_STEPS {
+        return;
+    }
+    let circle = Step { start: Framing::default(), ..first.clone() };
+    let rest = Step { end: start.clone(), words: first.words, ..Step::of(Move::Static) };
+    direction.insert_rest(0, rest);
+    direction.program.steps[1] = circle;
+}
+
 /// Gives a pan without a goal, or a circle about its subject, a full turn where its words lead all the way round and state
 /// no angle.
 pub(crate) fn turn_all_round(linked: &Linked, steps: &mut [Step]) {
@@ -198,6 +213,17 @@ pub(crate) fn close_circles(linked: &Linked, direction: &mut Direction) {
 mod tests {
     use super::super::fixture::{about, direction, linked};
     use super::*;
+
+    #[test]
+    fn a_circle_does_not_begin_at_another_thing() {
+        use cinesplat_trajectory::ShotSize;
+        let start = Framing { subjects: vec![5], size: Some(ShotSize::CloseUp), ..Framing::default() };
+        let mut direction = direction(vec![Step { start: start.clone(), ..about(Move::OrbitLeft, &[7], [0, 9]) }]);
+        begin_before_circles(&mut direction);
+        let [rest, circle] = &direction.program.steps[..] else { panic!("two steps") };
+        assert_eq!((rest.movement, &rest.end), (Move::Static, &start));
+        assert_eq!((circle.movement, &circle.start), (Move::OrbitLeft, &Framing::default()));
+    }
 
     #[test]
     fn it_is_circled_before_the_way_ends_elsewhere() {

@@ -3,7 +3,7 @@
 //! They are no picture of their own, whatever the network reads in them.
 
 use cinesplat_language::{Linked, is_listed, number_word};
-use cinesplat_operator::{Framing, Motion, Program, Step};
+use cinesplat_operator::{Framing, Motion, Program};
 use cinesplat_trajectory::Move;
 
 use crate::direction::Direction;
@@ -41,9 +41,11 @@ pub(crate) fn cut_as_headlined(linked: &Linked, program: &mut Program) {
     let words = linked.texts_in([0, usize::MAX]);
     let headline: Vec<&str> = words.iter().copied().take_while(|word| !MARKS.contains(word)).collect();
     let says = |list: &str| headline.iter().any(|word| is_listed(list, word));
-    let Some(num) = counted_parts(&headline).filter(|_| says("cut cuts") && says("between")) else { return };
-    let rests = |step: &Step| step.movement == Move::Static;
-    if program.steps.len() == num && program.steps.iter().all(rests) && !program.forbidden.contains(&Motion::Cut) {
+    let Some(num) = counted_parts(&headline).filter(|_| says("cut cuts")) else { return };
+    let rests = program.steps.iter().all(|step| step.movement == Move::Static) && says("between");
+    // `Three shots with hard cuts: ..`.
+    let shots = says("shots setups angles pictures") && says("with by joined");
+    if program.steps.len() == num && (rests || shots) && !program.forbidden.contains(&Motion::Cut) {
         program.steps.iter_mut().skip(1).for_each(|step| step.cut = true);
     }
 }
@@ -69,6 +71,7 @@ fn is_headline(words: &[&str]) -> bool {
 mod tests {
     use super::super::fixture::{about, direction, linked};
     use super::*;
+    use cinesplat_operator::Step;
 
     fn left(text: &str) -> Vec<(Vec<u32>, bool)> {
         let mark = text.find(['.', ':']).unwrap() + 1;

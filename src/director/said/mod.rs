@@ -23,6 +23,7 @@ mod fixed;
 #[cfg(test)]
 pub(crate) mod fixture;
 mod frame_sides;
+mod goes_on;
 mod headlines;
 mod heights;
 mod lengths;
@@ -153,6 +154,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     visits::visit_listed(linked, direction);
     ranges::zoom_between_lenses(linked, direction);
     circles::end_behind_circles(linked, direction);
+    circles::begin_before_circles(direction);
     circles::close_circles(linked, direction);
     circles::join_said_again(linked, direction);
     take_said_of_pictures(linked, &mut direction.program.steps);
@@ -237,6 +239,7 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     small_moves::turn_only(linked, &mut direction.program.steps);
     carriers::carry_as_said(linked, &mut direction.program.steps);
     arrivals::go_between_stops(linked, &mut direction.program.steps);
+    goes_on::go_on(linked, &mut direction.program.steps);
     stands::stand_at_opening(linked, &mut direction.program.steps);
     stands::stand_at_side(linked, &mut direction.program.steps);
     stands::open_on_sides(linked, &mut direction.program.steps);

@@ -1,7 +1,7 @@
 //! Directions that follow from other words, or from none: ways back, and directions that the prompt leaves open.
 
 use cinesplat_language::{Linked, Senses};
-use cinesplat_operator::{Amount, Step};
+use cinesplat_operator::{Amount, Framing, Step};
 use cinesplat_trajectory::Move;
 
 use super::directions::CORRECTIONS;
@@ -111,6 +111,8 @@ pub(crate) fn reverse_retraced(linked: &Linked, steps: &mut [Step]) {
         }
         steps[there].either_way = is_open;
         let with = steps[there].with.clone();
+        let [source, goal] = [&steps[there].start, &steps[there].end].map(|framing| framing.subjects.clone());
+        let about = |ids: &[u32]| Framing { subjects: ids.to_vec(), ..Framing::default() };
         let step = &mut steps[nth];
         // Who rose on the way out sinks on the way back.
         let sinks = |second: &Move| with.contains(second).then(|| second.opposite()).flatten();
@@ -119,6 +121,10 @@ pub(crate) fn reverse_retraced(linked: &Linked, steps: &mut [Step]) {
         step.returns |= is_open || is_approach && there == 0;
         step.movement = if is_open { movement } else { back };
         step.amount = step.amount.or(amount);
+        // What it began with is what it comes back to.
+        if step.end.subjects == goal && !source.is_empty() && step.end == about(&goal) {
+            step.end = about(&source);
+        }
     }
 }
 
@@ -201,8 +207,13 @@ fn says_retrace(linked: &Linked, bytes: [usize; 2]) -> bool {
     let retraces = |at: usize| {
         RETRACES.contains(&words[at]) && !words[at + 1..].iter().take(2).any(|word| OTHER_THINGS.contains(word))
     };
-    !words.iter().any(says_otherwise) && (0..words.len()).any(retraces)
+    // `From shelf A to shelf B and back again`.
+    let is_bare = words.contains(&"back") && words.iter().all(|word| BARE_BACK.contains(word));
+    is_bare || !words.iter().any(says_otherwise) && (0..words.len()).any(retraces)
 }
+
+/// All the words of a step that only goes back.
+const BARE_BACK: [&str; 8] = ["and", "then", "back", "again", "once", "more", ",", "."];
 
 /// A move with an arc as an orbit: both are circles about a subject.
 pub(super) fn as_orbit(movement: Move) -> Move {
@@ -270,5 +281,19 @@ mod tests {
             steps.map(|step| (step.movement, step.either_way)),
             [(Move::OrbitLeft, false), (Move::OrbitRight, false)]
         );
+    }
+
+    #[test]
+    fn what_goes_back_comes_to_what_it_began_with() {
+        let text = "pan right from <obj-0> to <obj-1> and back again";
+        let at = text.find(" and").unwrap();
+        let first = Step { start: about(Move::Static, &[5], [0, 1]).end, ..about(Move::PanRight, &[7], [0, at]) };
+        let mut steps = [first, about(Move::PanRight, &[7], [at + 1, text.len()])];
+        reverse_retraced(&linked(text), &mut steps);
+        assert_eq!((steps[1].movement, &steps[1].end.subjects[..]), (Move::PanLeft, &[5][..]));
+        let text = "zoom in on <obj-0> , then reverse it";
+        let mut steps = [about(Move::ZoomIn, &[5], [0, 18]), about(Move::DollyZoomIn, &[5], [21, text.len()])];
+        reverse_retraced(&linked(text), &mut steps);
+        assert_eq!((steps[1].movement, steps[1].returns), (Move::ZoomOut, true));
     }
 }

@@ -304,6 +304,19 @@ mod tests {
     use super::super::fixture::{about, linked};
     use super::*;
 
+    #[test]
+    fn a_lift_that_goes_straight_up_turns_nowhere() {
+        let forbids = |text: &str| {
+            let start = about(Move::Static, &[5], [0, 1]).end;
+            let step = Step { start, ..about(Move::PedestalUp, &[7], [0, text.len()]) };
+            let mut program = Program { steps: vec![step], ..Program::default() };
+            lift_straight(&linked(text), &mut program);
+            program.forbidden
+        };
+        assert_eq!(forbids("pedestal straight up from <obj-0> to the height of <obj-1>"), [Motion::Turn]);
+        assert_eq!(forbids("pedestal up from <obj-0> to the height of <obj-1>"), []);
+    }
+
     fn measured(text: &str, kind: QuantityKind, value: f64) -> Linked {
         Linked { quantities: vec![Quantity { kind, value }; 2], ..linked(text) }
     }

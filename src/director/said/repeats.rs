@@ -356,6 +356,20 @@ mod tests {
     }
 
     #[test]
+    fn the_picture_that_a_move_starts_from_is_no_second_one() {
+        use super::super::fixture::{about, direction, linked};
+        let text = "start : low in front of <obj-0> / move : jib up to eye height";
+        let at = text.find(" /").unwrap();
+        let start =
+            Framing { angle: Some(cinesplat_trajectory::ShotAngle::Worm), ..about(Move::Static, &[5], [0, 1]).end };
+        let first = Step { start: start.clone(), ..about(Move::CraneUp, &[5], [0, at]) };
+        let mut direction = direction(vec![first, about(Move::CraneUp, &[5], [at + 3, text.len()])]);
+        join_opening(&linked(text), &mut direction);
+        assert_eq!(direction.program.steps.len(), 1);
+        assert_eq!(direction.program.steps[0].start, start);
+    }
+
+    #[test]
     fn details_of_a_move_are_no_second_move() {
         let high = step(1, |step| step.end.angle = Some(cinesplat_trajectory::ShotAngle::High));
         let timed = step(1, |step| {

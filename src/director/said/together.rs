@@ -236,6 +236,29 @@ mod tests {
     }
 
     #[test]
+    fn a_picture_of_a_list_shows_all_of_it() {
+        let text = "from <obj-0> to <obj-1> , end on a wide shot of <obj-0> , <obj-1> and <obj-2>";
+        let linked = Linked { slots: vec![5, 7, 9], ..linked(text) };
+        let from = text.find("end").unwrap();
+        let mut steps = [about(Move::Follow, &[7], [0, from]), about(Move::Follow, &[5, 9], [from, text.len()])];
+        complete_shown(&linked, &mut steps);
+        assert_eq!(steps[1].end.subjects, [5, 9, 7]);
+        assert_eq!(steps[0].end.subjects, [7]);
+    }
+
+    #[test]
+    fn both_and_another_thing_are_three() {
+        let text = "<obj-0> first , <obj-1> second , end wide with both and <obj-2> . no cuts";
+        let linked = Linked { slots: vec![5, 7, 9], ..linked(text) };
+        let mut steps = [Step {
+            end: Framing { whole: true, ..about(Move::Follow, &[9], [0, 1]).end },
+            ..about(Move::Follow, &[9], [17, text.len()])
+        }];
+        show_both(&linked, &mut steps);
+        assert_eq!(steps[0].end.subjects, [9, 5, 7]);
+    }
+
+    #[test]
     fn both_of_a_pair_are_those_that_are_named() {
         let text = "from <obj-2> to <obj-0> , and finish with <obj-0> and <obj-1> both in view";
         assert_eq!(shown(text, &[9, 7]), [5, 7]);

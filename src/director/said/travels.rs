@@ -52,7 +52,7 @@ pub(crate) fn go_along(linked: &Linked, steps: &mut [Step]) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let is_open =
             step.via.is_none() && step.start == Framing { subjects: step.start.subjects.clone(), ..Framing::default() };
-        let goes = matches!(step.movement, Move::PushIn | Move::Follow) && is_open;
+        let goes = matches!(step.movement, Move::PushIn | Move::Follow | Move::TruckLeft | Move::TruckRight) && is_open;
         let is_along = |at: usize| {
             let rest = words[at + 1..].iter().find(|word| !is_listed("the whole full length of side edge", word));
             words[at] == "along"
@@ -136,6 +136,13 @@ mod tests {
         };
         assert_eq!(along("move forward along the length of <obj-0> to <obj-1>"), Some(vec![5]));
         assert_eq!(along("move forward from <obj-0> along to <obj-1>"), None);
+    }
+
+    #[test]
+    fn a_truck_that_is_called_so_is_no_pan() {
+        assert_eq!(moved("truck right until <obj-0> is out of frame", Move::PanRight, &[]), Move::TruckRight);
+        assert_eq!(moved("truck right while panning left", Move::PanRight, &[]), Move::PanRight);
+        assert_eq!(moved("swing right to the truck", Move::PanRight, &[]), Move::PanRight);
     }
 
     #[test]

@@ -7,7 +7,7 @@ use super::paths::end_view;
 use super::with::factor_beside_circle;
 use crate::composition::stated_azimuths;
 use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
-use crate::framing::{Bearing, Fill, Target, bearing_of, distance_for, view_at};
+use crate::framing::{Bearing, Fill, Target, bearing_of, distance_for, extent_frac, view_at};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing};
 use crate::view::{aimed, fill_in, lerp, moved, stated_fill, with_fov};
@@ -20,7 +20,14 @@ const DEG_PER_KEY: f64 = 30.0;
 /// Circles the upright axis through the subject's center, at constant radius and height.
 pub(super) fn orbit(context: &StepContext) -> Vec<MotionSegment> {
     let target = context.main_target();
-    let (mut segments, first) = context.opened_on(&Target { aim: target.center, ..target.clone() }, (0.5, 0.82));
+    let center = Target { aim: target.center, ..target.clone() };
+    let (mut segments, first) = match &context.before {
+        Some(before) if is_among(context, before, &target) => {
+            let there = end_view(context, &center, before);
+            (vec![context.join(*before, there)], there)
+        }
+        _ => context.opened_on(&center, (0.5, 0.82)),
+    };
     let sign = context.sign(match context.step.movement {
         Move::OrbitLeft | Move::ArcLeft => 1.0,
         _ => -1.0,
@@ -60,6 +67,18 @@ pub(super) fn orbit(context: &StepContext) -> Vec<MotionSegment> {
     }
     segments.push(require_visible(segment, &target, Scope::All));
     segments
+}
+
+/// Size in the frame of a thing that the film comes to with a circle from which on the camera is too near to circle it.
+const TOO_NEAR: f64 = 1.3;
+
+/// Whether the step before ends too near to another thing than its own, which this step circles: `close up of the laptop, then orbit
+/// the desk`.
+fn is_among(context: &StepContext, before: &CameraState, target: &Target) -> bool {
+    let is_new = context.earlier.as_ref().is_some_and(|earlier| !target.ids.iter().any(|id| earlier.ids.contains(id)));
+    let turned = aimed(context.world, before, target.center);
+    let nears = extent_frac(context.world, &turned, &target.corners).max_element() > TOO_NEAR;
+    is_new && nears && !context.forbids_turning() && context.step.start == Framing::default()
 }
 
 /// The first camera of a full turn about a thing that has a front: there, and so the turn ends face to face as well. Others,

@@ -21,12 +21,13 @@ pub(super) const WALL_RADII: f64 = 3.0;
 /// Share of the frame that a lone thing fills at the end of a push toward it.
 const LONE_END: (f64, f64) = (0.8, 0.94);
 
-/// The same in a room, where the words name no size. What ends smaller is lost among the things around it.
+/// The same of a thing in a room, where the words name no size: what ends smaller is lost among the things around it.
 pub(super) const ROOM_END: (f64, f64) = (0.55, 0.88);
-/// Distance ratios of a push in a room to a thing whose size the words leave open.
-const OPEN_RATIOS: (f64, f64) = (0.22, 0.56);
-
-/// Largest size of a subject's splats over the frame's height to which a move brings it by itself.
+/// Distance ratio of a push that goes nearer than others for that at most.
+const NEAREST_RATIO: f64 = 0.22;
+/// Distance ratios of a push in a room whose end the words leave open.
+const OPEN_RATIOS: (f64, f64) = (0.36, 0.56);
+/// Largest size of a subject's splats over the frame's height to which a move brings it for that.
 const SOFT_FRAC: f64 = 13.0 / 720.0;
 
 /// Ratio of the distances, or of the tangents of half the fields of view, beyond which a subject is only seen softer and not better.
@@ -36,24 +37,26 @@ pub(super) fn soft_ratio(context: &StepContext, target: &Target, first: &CameraS
     subject.map_or(0.0, |subject| subject.splat_size / (reach * SOFT_FRAC))
 }
 
-/// The distance ratio of a push at which its subject fills the picture; `None` without a subject, and where a lone thing fills it
-/// before.
-fn filling_ratio(context: &StepContext, target: &Target, first: &CameraState) -> Option<f64> {
+/// The distance ratio of a push whose end the words leave open: a lone thing fills the picture at the end, and a small thing in a
+/// room is large in it.
+fn open_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f64 {
+    let open = lerp(OPEN_RATIOS, context.parameters[6]);
+    if target.ids.is_empty() {
+        return open;
+    }
     let now = extent_frac(context.world, first, &target.corners).max_element();
     if context.world.is_indoor() {
-        let ratio = now / lerp(ROOM_END, context.parameters[6]);
-        let least = soft_ratio(context, target, first).clamp(OPEN_RATIOS.0, OPEN_RATIOS.1);
-        return (!target.ids.is_empty()).then_some(ratio.clamp(least, OPEN_RATIOS.1));
+        let large = now / lerp(ROOM_END, context.parameters[6]);
+        return open.min(large.max(soft_ratio(context, target, first)).max(NEAREST_RATIO));
     }
-    let ratio = now / lerp(LONE_END, context.parameters[6]);
-    (!target.ids.is_empty() && ratio < 0.74).then_some(ratio.max(0.3))
+    let filling = now / lerp(LONE_END, context.parameters[6]);
+    if filling < 0.74 { filling.max(0.3) } else { open }
 }
 
 /// Distance at the end over that at the start.
 pub(super) fn distance_ratio(context: &StepContext, target: &Target, first: &CameraState, inward: bool) -> f64 {
     let distance = first.pose.position.distance(target.aim);
-    let inner = || filling_ratio(context, target, first).unwrap_or(lerp((0.36, 0.56), context.parameters[6]));
-    let open = if inward { inner() } else { lerp((1.9, 3.3), context.parameters[6]) };
+    let open = if inward { open_ratio(context, target, first) } else { lerp((1.9, 3.3), context.parameters[6]) };
     let by_size = room_ratio(context, target, first).or_else(|| size_ratio(context, target, first));
     let by_whole = || whole_ratio(context, first, distance);
     let stated = match context.step.amount {

@@ -55,8 +55,9 @@ impl StepContext<'_> {
     }
 }
 
-/// Ratios of a zoom in whose size the words leave open.
-const OPEN_RATIOS: (f64, f64) = (0.24, 0.56);
+/// Ratios of a zoom in whose size the words leave open, and the least of one that goes farther for a small thing.
+const OPEN_RATIOS: (f64, f64) = (0.38, 0.56);
+const NARROWEST_RATIO: f64 = 0.24;
 /// Vertical field of view that shows a room, degrees.
 const ROOM_LENS_DEG: (f64, f64) = (54.0, 70.0);
 
@@ -66,14 +67,15 @@ fn ends_on_room(context: &StepContext) -> bool {
     end.subjects.is_empty() && matches!(end.size, Some(ShotSize::Long | ShotSize::ExtremeLong))
 }
 
-/// The ratio of a zoom in without a stated size: in a room its subject fills the picture at the end.
+/// The ratio of a zoom in without a stated size: a small thing in a room is large in the picture at the end.
 fn inward_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f64 {
+    let open = lerp(OPEN_RATIOS, context.parameters[6]);
     if !context.world.is_indoor() || target.ids.is_empty() {
-        return lerp((0.38, 0.56), context.parameters[6]);
+        return open;
     }
     let now = extent_frac(context.world, first, &target.corners).max_element();
-    let least = soft_ratio(context, target, first).clamp(OPEN_RATIOS.0, OPEN_RATIOS.1);
-    (now / lerp(ROOM_END, context.parameters[6])).clamp(least, OPEN_RATIOS.1)
+    let large = now / lerp(ROOM_END, context.parameters[6]);
+    open.min(large.max(soft_ratio(context, target, first)).max(NARROWEST_RATIO))
 }
 
 /// Tangent of half the field of view at the end, over that at the start.

@@ -133,7 +133,7 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
 }
 
 /// Size of what a way ends at, where the words state none: in a room, and of a lone thing, about which there is nothing.
-const END_FILL: (f64, f64) = (0.52, 0.84);
+const END_FILL: (f64, f64) = (0.45, 0.78);
 const LONE_END_FILL: (f64, f64) = (0.62, 0.92);
 /// Distance at which a walk up to a thing on a wall ends at least, over the height of a standing person's eyes.
 const LEAST_WALL_EYES: f64 = 0.7;

@@ -2,7 +2,6 @@
 
 use glam::DVec3;
 
-use super::compose::{turn_between, turned_by};
 use super::context::{StepContext, require_visible};
 use super::passes::gate;
 use super::standing_view::stands;
@@ -123,7 +122,7 @@ fn slide(
     let sized = context.end.as_ref().filter(|_| travels && !direction.is_vertical());
     let last = sized.map_or(last, |end| resized(context, &last, end, way));
     let risen = context.end.as_ref().filter(|_| travels && direction.is_vertical());
-    let last = risen.map_or(last, |end| facing(context, &last, end));
+    let last = risen.map_or(last, |end| before_goal(&last, end, way));
     let mut segment = context.segment(vec![first, last]);
     let slight = matches!(context.step.amount, Some(Amount::Slight | Amount::Units(_)))
         || !travels && keeps_picture(context, direction, &target);
@@ -150,15 +149,14 @@ fn slide(
     segments
 }
 
-/// Turns to the side at the end of a rise or a descent that bring its goal to the middle, radians: less is not seen, and more is
-/// a pan.
-const FACING_RAD: (f64, f64) = (0.05, 0.6);
+/// Way to the side by which a rise or a descent comes before its goal at most, over its length: it stays a way up or down.
+const MOST_ASIDE: f64 = 0.35;
 
-/// The last camera of a rise or a descent, turned to the side so that the thing to which it leads is in the middle.
-fn facing(context: &StepContext, last: &CameraState, end: &Target) -> CameraState {
-    let (yaw_rad, _) = turn_between(context, last, &aimed(context.world, last, end.aim));
-    let is_turn = (FACING_RAD.0..FACING_RAD.1).contains(&yaw_rad.abs());
-    if is_turn && !context.forbids_turning() { turned_by(context, last, (yaw_rad, 0.0)) } else { *last }
+/// The last camera of a rise or a descent, moved to the side so that the thing to which it leads is in the middle.
+fn before_goal(last: &CameraState, end: &Target, way: f64) -> CameraState {
+    let right = last.pose.right();
+    let aside = (end.aim - last.pose.position).dot(right);
+    if aside.abs() <= MOST_ASIDE * way.abs() { moved(last, right * aside) } else { *last }
 }
 
 /// The last camera of a slide, nearer or farther where the words state another size for its end; it stays a slide.
