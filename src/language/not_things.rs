@@ -425,7 +425,9 @@ mod tests {
         assert!(!is_none("push in on the jaws of the skull", "the jaws"));
         assert!(is_none("go round the skull counter-clockwise", "counter"));
         assert!(is_none("zoom in, let the whole camera sink", "whole camera sink"));
-        assert!(!is_none("go round the counter clockwise, twice", "the skull"));
+        assert!(!is_none("go round the counter, then clockwise", "the counter"));
+        assert!(is_none("until I can see the whole corner with the skull", "the whole corner"));
+        assert!(!is_none("push in on the corner shelf", "the corner shelf"));
     }
 
     #[test]
