@@ -89,6 +89,7 @@
 mod backdrops;
 mod blanks;
 mod borne;
+mod camera_words;
 mod chain;
 mod corrections;
 mod dictation;
