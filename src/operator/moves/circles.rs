@@ -75,10 +75,9 @@ const TOO_NEAR: f64 = 1.3;
 /// Whether the step before ends too near to another thing than its own, which this step circles: `close up of the laptop, then orbit
 /// the desk`.
 fn is_among(context: &StepContext, before: &CameraState, target: &Target) -> bool {
-    let is_new = context.earlier.as_ref().is_some_and(|earlier| !target.ids.iter().any(|id| earlier.ids.contains(id)));
     let turned = aimed(context.world, before, target.center);
     let nears = extent_frac(context.world, &turned, &target.corners).max_element() > TOO_NEAR;
-    is_new && nears && !context.forbids_turning() && context.step.start == Framing::default()
+    context.comes_to(target) && nears && !context.forbids_turning() && context.step.start == Framing::default()
 }
 
 /// The first camera of a full turn about a thing that has a front: there, and so the turn ends face to face as well. Others,

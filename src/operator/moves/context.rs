@@ -286,6 +286,11 @@ impl<'a> StepContext<'a> {
         (vec![self.join(*before, turned)], turned)
     }
 
+    /// Whether the film comes to a target with this step, from something else.
+    pub(super) fn comes_to(&self, target: &Target) -> bool {
+        self.earlier.as_ref().is_some_and(|earlier| !target.ids.iter().any(|id| earlier.ids.contains(id)))
+    }
+
     /// Whether the words rule out every turn of the camera, or one to a side, up or down.
     pub(super) fn forbids_turning(&self) -> bool {
         self.forbidden.iter().any(|motion| matches!(motion, Motion::Turn | Motion::Pan | Motion::Tilt))

@@ -87,8 +87,7 @@ const LEAST_ACROSS: f64 = 0.3;
 
 /// Largest distance from the frame's middle of the hold's subject where the camera need not turn to it.
 fn held_off(context: &StepContext, target: &Target) -> f64 {
-    let is_new = context.earlier.as_ref().is_some_and(|earlier| !target.ids.iter().any(|id| earlier.ids.contains(id)));
-    if is_new && !context.forbids_turning() { COME_TO_OFF } else { HELD_OFF }
+    if context.comes_to(target) && !context.forbids_turning() { COME_TO_OFF } else { HELD_OFF }
 }
 
 /// Whether the composition of a held view is free: one subject, no stated size, part or angle, and no later step that
