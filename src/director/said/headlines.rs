@@ -3,7 +3,7 @@
 //! They are no picture of their own, whatever the network reads in them.
 
 use cinesplat_language::{Linked, is_listed, number_word};
-use cinesplat_operator::{Framing, Motion, Program};
+use cinesplat_operator::{Framing, Motion, Program, Step};
 use cinesplat_trajectory::Move;
 
 use crate::direction::Direction;
@@ -50,6 +50,40 @@ pub(crate) fn cut_as_headlined(linked: &Linked, program: &mut Program) {
     }
 }
 
+/// What the parts of a list of shots are called, and sizes with which such a part begins.
+const SHOTS: &str = "shot setup";
+const SIZES: &str = "ws ls els mls fs ms mcu cu ecu xcu bcu ews vws mws overhead wide";
+/// Words of a film without cuts.
+const UNCUT: &str = "continuous uncut unbroken oner";
+
+/// Cuts before each further shot of a list of shots: `SHOT 1 - ..` and `SHOT 2 - ..`, `1. WS ..` and `2. CU ..`.
+pub(crate) fn cut_shots(linked: &Linked, program: &mut Program) {
+    let words: Vec<(&str, [usize; 2])> = linked.words_in([0, usize::MAX]).collect();
+    let text = |at: usize| words.get(at).map_or("", |(word, _)| *word);
+    let heads = |number: usize| {
+        let says = |at: usize| text(at) == number.to_string();
+        let is_shot =
+            |at: usize| at > 0 && is_listed(SHOTS, text(at - 1)) && !text(at + 1).starts_with(char::is_alphanumeric);
+        let is_sized = |at: usize| matches!(text(at + 1), "." | ")" | ":") && is_listed(SIZES, text(at + 2));
+        (0..words.len()).find(|at| says(*at) && (is_shot(*at) || is_sized(*at))).map(|at| words[at].1[0])
+    };
+    let starts: Vec<usize> = (1..=12).map_while(heads).collect();
+    let is_list = starts.len() > 1 && starts.is_sorted();
+    if !is_list || words.iter().any(|(word, _)| is_listed(UNCUT, word)) || program.forbidden.contains(&Motion::Cut) {
+        return;
+    }
+    for (nth, start) in starts.iter().enumerate().skip(1) {
+        let end = starts.get(nth + 1).copied().unwrap_or(usize::MAX);
+        let is_within = |step: &&mut Step| {
+            step.words.is_some_and(|[from, to]| from < end && to > *start && from + 1 >= starts[nth - 1])
+        };
+        let begins = |step: &&mut Step| step.words.is_some_and(|[from, _]| from + 8 >= *start);
+        if let Some(step) = program.steps.iter_mut().skip(1).filter(begins).find(is_within) {
+            step.cut = true;
+        }
+    }
+}
+
 /// The number of parts that words count: `two setups`.
 fn counted_parts(words: &[&str]) -> Option<usize> {
     let parts = words.iter().position(|word| is_listed(PARTS, word))?;
@@ -71,7 +105,6 @@ fn is_headline(words: &[&str]) -> bool {
 mod tests {
     use super::super::fixture::{about, direction, linked};
     use super::*;
-    use cinesplat_operator::Step;
 
     fn left(text: &str) -> Vec<(Vec<u32>, bool)> {
         let mark = text.find(['.', ':']).unwrap() + 1;
@@ -79,6 +112,21 @@ mod tests {
         let mut direction = direction(vec![about(Move::Static, &[], [0, mark]), cut(&[5]), cut(&[7])]);
         drop_headline(&linked(text), &mut direction);
         direction.program.steps.into_iter().map(|step| (step.end.subjects, step.cut)).collect()
+    }
+
+    #[test]
+    fn a_list_of_shots_is_cut() {
+        let cuts = |text: &str, second: &str| {
+            let at = text.find(second).unwrap();
+            let steps = vec![about(Move::Static, &[5], [0, at - 1]), about(Move::ArcLeft, &[7], [at, text.len()])];
+            let mut program = Program { steps, ..Program::default() };
+            cut_shots(&linked(text), &mut program);
+            program.steps[1].cut
+        };
+        assert!(cuts("shot 1 , wide of <obj-0> . shot 2 , <obj-1> , slow arc left", "shot 2"));
+        assert!(cuts("1 . ws <obj-0> , 3s 2 . cu <obj-1> , slow arc", "2 ."));
+        assert!(!cuts("1 . hold on <obj-0> , 3s 2 . arc left round <obj-1>", "2 ."));
+        assert!(!cuts("one continuous take , shot 1 , <obj-0> . shot 2 , <obj-1>", "shot 2"));
     }
 
     #[test]

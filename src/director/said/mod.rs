@@ -283,6 +283,7 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     meanwhile::join_simultaneous(linked, direction);
     take_said_in_relation(linked, &mut direction.program.steps);
     open::go_other_way(linked, &mut direction.program.steps);
+    open::come_back_either_way(&mut direction.program.steps);
     directions::rise_or_sink(linked, &mut direction.program.steps);
     lengths::take_total(linked, direction);
     asides::time_title(linked, &mut direction.program);
@@ -294,6 +295,7 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     briefs::show_many(linked, direction);
     headlines::drop_headline(linked, direction);
     headlines::cut_as_headlined(linked, &mut direction.program);
+    headlines::cut_shots(linked, &mut direction.program);
     carriers::flow_without_cuts(&mut direction.program);
     carriers::show_all_sides(linked, direction);
     let steps = &mut direction.program.steps;

@@ -128,6 +128,17 @@ pub(crate) fn reverse_retraced(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Leaves the way back open where the way there is: `slide from one to the other, and slide back to where we began`.
+pub(crate) fn come_back_either_way(steps: &mut [Step]) {
+    for nth in 1..steps.len() {
+        let family = as_orbit(steps[nth].movement);
+        let is_family =
+            |step: &Step| as_orbit(step.movement) == family || as_orbit(step.movement).opposite() == Some(family);
+        let is_open = steps[..nth].iter().any(|step| step.either_way && is_family(step));
+        steps[nth].either_way |= steps[nth].returns && is_sideways(family) && is_open;
+    }
+}
+
 /// Turns a circle, a slide or a pan around whose words go the other way than the last one did: `it keeps circling the chair, then it
 /// stalls, then it goes round the other way`.
 pub(crate) fn go_other_way(linked: &Linked, steps: &mut [Step]) {
@@ -281,6 +292,15 @@ mod tests {
             steps.map(|step| (step.movement, step.either_way)),
             [(Move::OrbitLeft, false), (Move::OrbitRight, false)]
         );
+    }
+
+    #[test]
+    fn a_way_back_is_as_open_as_the_way_there() {
+        let there = Step { either_way: true, ..about(Move::TruckRight, &[7], [0, 9]) };
+        let back = Step { returns: true, ..about(Move::TruckRight, &[5], [9, 20]) };
+        let mut steps = [there, back];
+        come_back_either_way(&mut steps);
+        assert!(steps[1].either_way);
     }
 
     #[test]
