@@ -32,12 +32,9 @@ pub(crate) fn drop_other_bearers(
         let borne = found[..nth].iter().rev().find_map(|found| object(*found.mention.ids.first()?));
         !is_called && borne.is_some_and(|borne| !stands_on(places, borne, bearer))
     };
-    let others: Vec<usize> = (0..found.len()).filter(|nth| is_other(*nth)).collect();
-    let mut nth = 0;
-    found.retain(|_| {
-        nth += 1;
-        !others.contains(&(nth - 1))
-    });
+    let is_kept: Vec<bool> = (0..found.len()).map(|nth| !is_other(nth)).collect();
+    let mut is_kept = is_kept.into_iter();
+    found.retain(|_| is_kept.next().unwrap_or(true));
 }
 
 /// Whether the words behind a mention say that something stands on what it names; the mention may end with `it`.

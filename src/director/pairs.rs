@@ -133,18 +133,13 @@ pub(crate) fn name_pairs(
             let Some(group) = own.group else { continue };
             blanks.extend(leads(prompt, found, group, bytes[0]).then_some([group[0], bytes[0]]));
         }
+        let mut ids = ids;
         if let (Phrase::Other, Some(first)) = (&phrase, own.last)
             && let Some(one) = led_from(prompt, places, found, first, &own.ids)
         {
-            let other = own.ids.iter().copied().find(|id| *id != one).unwrap_or(one);
-            found
-                .iter_mut()
-                .filter(|found| found.mention.ids == [first])
-                .for_each(|found| found.mention.ids = vec![one]);
-            (own.last, own.is_told) = (Some(other), true);
-            replace_mentions(found, Mention { bytes, ids: vec![other] });
-            at += len - 1;
-            continue;
+            let named = found.iter_mut().filter(|found| found.mention.ids == [first]);
+            named.for_each(|found| found.mention.ids = vec![one]);
+            ids = own.ids.iter().copied().filter(|id| *id != one).collect();
         }
         if let [id] = ids[..] {
             (own.last, own.is_told) = (Some(id), true);

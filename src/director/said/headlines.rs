@@ -53,6 +53,8 @@ pub(crate) fn cut_as_headlined(linked: &Linked, program: &mut Program) {
 /// What the parts of a list of shots are called, and sizes with which such a part begins.
 const SHOTS: &str = "shot setup";
 const SIZES: &str = "ws ls els mls fs ms mcu cu ecu xcu bcu ews vws mws overhead wide";
+/// Most bytes by which the words of a shot begin before its number: a mark and what the parts are called.
+const MOST_LEAD: usize = 8;
 /// Words of a film without cuts.
 const UNCUT: &str = "continuous uncut unbroken oner";
 
@@ -74,11 +76,10 @@ pub(crate) fn cut_shots(linked: &Linked, program: &mut Program) {
     }
     for (nth, start) in starts.iter().enumerate().skip(1) {
         let end = starts.get(nth + 1).copied().unwrap_or(usize::MAX);
-        let is_within = |step: &&mut Step| {
-            step.words.is_some_and(|[from, to]| from < end && to > *start && from + 1 >= starts[nth - 1])
+        let is_of_shot = |step: &&mut Step| {
+            step.words.is_some_and(|[from, to]| from < end && to > *start && from + MOST_LEAD >= *start)
         };
-        let begins = |step: &&mut Step| step.words.is_some_and(|[from, _]| from + 8 >= *start);
-        if let Some(step) = program.steps.iter_mut().skip(1).filter(begins).find(is_within) {
+        if let Some(step) = program.steps.iter_mut().skip(1).find(is_of_shot) {
             step.cut = true;
         }
     }

@@ -122,19 +122,23 @@ pub(crate) fn reverse_retraced(linked: &Linked, steps: &mut [Step]) {
         step.movement = if is_open { movement } else { back };
         step.amount = step.amount.or(amount);
         // What it began with is what it comes back to.
-        if step.end.subjects == goal && !source.is_empty() && step.end == about(&goal) {
+        if !source.is_empty() && step.end == about(&goal) {
             step.end = about(&source);
         }
     }
+}
+
+/// Whether a step is a move of a family, or the other way.
+fn is_of(family: Move, step: &Step) -> bool {
+    let own = as_orbit(step.movement);
+    own == family || own.opposite() == Some(family)
 }
 
 /// Leaves the way back open where the way there is: `slide from one to the other, and slide back to where we began`.
 pub(crate) fn come_back_either_way(steps: &mut [Step]) {
     for nth in 1..steps.len() {
         let family = as_orbit(steps[nth].movement);
-        let is_family =
-            |step: &Step| as_orbit(step.movement) == family || as_orbit(step.movement).opposite() == Some(family);
-        let is_open = steps[..nth].iter().any(|step| step.either_way && is_family(step));
+        let is_open = steps[..nth].iter().any(|step| step.either_way && is_of(family, step));
         steps[nth].either_way |= steps[nth].returns && is_sideways(family) && is_open;
     }
 }
@@ -148,9 +152,7 @@ pub(crate) fn go_other_way(linked: &Linked, steps: &mut [Step]) {
             .windows(2)
             .any(|pair| matches!(pair[0], "other" | "opposite") && matches!(pair[1], "way" | "direction" | "sense"));
         let family = as_orbit(steps[nth].movement);
-        let is_family =
-            |step: &Step| as_orbit(step.movement) == family || as_orbit(step.movement).opposite() == Some(family);
-        let Some(there) = steps[..nth].iter().rposition(is_family) else { continue };
+        let Some(there) = steps[..nth].iter().rposition(|step| is_of(family, step)) else { continue };
         let Some(back) = steps[there].movement.opposite() else { continue };
         if says && is_sideways(steps[nth].movement) && !steps[nth].returns {
             steps[there].either_way = false;

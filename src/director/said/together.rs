@@ -169,9 +169,10 @@ pub(crate) fn show_both(linked: &Linked, steps: &mut [Step]) {
         for step in steps.iter_mut().filter(holds) {
             let framing = if step.end.subjects.is_empty() { &mut step.start } else { &mut step.end };
             show_pair(framing, [first, second]);
+            let pair = linked.expanded(&[first, second]);
             let adds = is_wide && JOINTS.contains(&next) && framing.whole;
-            if adds && framing.subjects.iter().all(|id| !linked.expanded(&[first, second]).contains(id)) {
-                add_ids(&mut framing.subjects, &linked.expanded(&[first, second]));
+            if adds && framing.subjects.iter().all(|id| !pair.contains(id)) {
+                add_ids(&mut framing.subjects, &pair);
             }
         }
     }

@@ -22,15 +22,12 @@ pub(crate) fn travel_instead_of_turning(linked: &Linked, program: &mut Program) 
     let forbidden = program.forbidden.clone();
     for step in &mut program.steps {
         let words = linked.texts_in(step.words.unwrap_or_default());
-        if let Some(travel) = travel_of(step.movement).filter(|_| names_slide(&words, side(step.movement))) {
-            (step.movement, step.either_way) = (travel, false);
-            continue;
-        }
-        let Some(travel) = travel_of(step.movement).filter(|_| step.start.subjects.is_empty()) else { continue };
+        let Some(travel) = travel_of(step.movement) else { continue };
         let is_banned = Motion::of(step.movement).is_some_and(|motion| forbidden.contains(&motion))
             || forbidden.contains(&Motion::Turn);
         let is_ruled_out = is_banned && !asks_for_turn(&words) && words.contains(&side(step.movement));
-        if is_length(linked, step, &words) || is_ruled_out {
+        let is_meant = step.start.subjects.is_empty() && (is_length(linked, step, &words) || is_ruled_out);
+        if names_slide(&words, side(step.movement)) || is_meant {
             (step.movement, step.either_way) = (travel, false);
         }
     }

@@ -22,7 +22,7 @@ pub(super) const WALL_RADII: f64 = 3.0;
 const LONE_END: (f64, f64) = (0.8, 0.94);
 
 /// The same of a thing in a room, where the words name no size: what ends smaller is lost among the things around it.
-pub(super) const ROOM_END: (f64, f64) = (0.55, 0.88);
+const ROOM_END: (f64, f64) = (0.55, 0.88);
 /// Distance ratio of a push that goes nearer than others for that at most.
 const NEAREST_RATIO: f64 = 0.22;
 /// Distance ratios of a push in a room whose end the words leave open.
@@ -30,8 +30,15 @@ const OPEN_RATIOS: (f64, f64) = (0.36, 0.56);
 /// Largest size of a subject's splats over the frame's height to which a move brings it for that.
 const SOFT_FRAC: f64 = 13.0 / 720.0;
 
-/// Ratio of the distances, or of the tangents of half the fields of view, beyond which a subject is only seen softer and not better.
-pub(super) fn soft_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f64 {
+/// Ratio of the distances, or of the tangents of half the fields of view, at which a thing in a room is large in the picture, as far
+/// as its splats hold.
+pub(super) fn large_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f64 {
+    let now = extent_frac(context.world, first, &target.corners).max_element();
+    (now / lerp(ROOM_END, context.parameters[6])).max(soft_ratio(context, target, first))
+}
+
+/// The same ratio, beyond which a subject is only seen softer and not better.
+fn soft_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f64 {
     let subject = target.ids.first().and_then(|id| context.world.subject(*id));
     let reach = 2.0 * first.pose.position.distance(target.aim) * (first.fov_y_rad / 2.0).tan();
     subject.map_or(0.0, |subject| subject.splat_size / (reach * SOFT_FRAC))
@@ -44,11 +51,10 @@ fn open_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f6
     if target.ids.is_empty() {
         return open;
     }
-    let now = extent_frac(context.world, first, &target.corners).max_element();
     if context.world.is_indoor() {
-        let large = now / lerp(ROOM_END, context.parameters[6]);
-        return open.min(large.max(soft_ratio(context, target, first)).max(NEAREST_RATIO));
+        return open.min(large_ratio(context, target, first).max(NEAREST_RATIO));
     }
+    let now = extent_frac(context.world, first, &target.corners).max_element();
     let filling = now / lerp(LONE_END, context.parameters[6]);
     if filling < 0.74 { filling.max(0.3) } else { open }
 }

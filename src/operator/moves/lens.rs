@@ -1,7 +1,7 @@
 //! Moves of the lens: zoom, dolly zoom.
 
 use super::context::{StepContext, require_visible};
-use super::dolly_length::{ROOM_END, soft_ratio};
+use super::dolly_length::large_ratio;
 use crate::composition::lens_fov_deg;
 use crate::constraint::{ConstraintKind, Scope};
 use crate::framing::{Fill, Target, extent_frac, in_frame_frac};
@@ -73,9 +73,7 @@ fn inward_ratio(context: &StepContext, target: &Target, first: &CameraState) -> 
     if !context.world.is_indoor() || target.ids.is_empty() {
         return open;
     }
-    let now = extent_frac(context.world, first, &target.corners).max_element();
-    let large = now / lerp(ROOM_END, context.parameters[6]);
-    open.min(large.max(soft_ratio(context, target, first)).max(NARROWEST_RATIO))
+    open.min(large_ratio(context, target, first).max(NARROWEST_RATIO))
 }
 
 /// Tangent of half the field of view at the end, over that at the start.
