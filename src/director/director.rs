@@ -38,6 +38,7 @@ use crate::model::Model;
 use crate::model_files::ModelFiles;
 use crate::names::{FoundMention, Names, NamesFiles};
 use crate::numbered_lists::name_numbered;
+use crate::ordinals::point_by_order;
 use crate::pairs::name_pairs;
 use crate::placed::{Places, point_by_places};
 use crate::said::{frame_parts, pan_from_first_to_last, take_said, take_said_of_all};
@@ -157,6 +158,7 @@ impl Director {
         point_by_size(prompt, objects, places, &mut found);
         point_by_comparison(prompt, places, &mut found);
         point_by_places(prompt, objects, places, &mut found);
+        point_by_order(prompt, places, &mut found);
         let led = name_pairs(prompt, objects, places, &mut found);
         let prompt = &*blanked(prompt, &led);
         absorb_places(prompt, objects, &mut found)?;

@@ -45,6 +45,7 @@ mod model_files;
 pub mod names;
 pub mod network;
 mod numbered_lists;
+mod ordinals;
 mod pairs;
 mod placed;
 mod said;

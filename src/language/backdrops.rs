@@ -44,12 +44,15 @@ fn behind_at(words: &[Word], at: usize) -> Option<[usize; 3]> {
 /// Words before a background, which say that the picture has it.
 const HAS: &str = "with having has have show shows showing see sees seeing and so until till ending ends keep keeping that's leaving leave \
     finishing featuring get getting framing where";
+/// Words of those before the first of two things that are a background together.
+const SHOWN: &str = "until till with see sees show shows so";
 /// What joins a background to a clause that is left without it.
 const JOINS: &str = ", ; - with until till ending finishing so that and keeping on when where framing showing";
 /// Words between a background and where it is.
 const LOOKS: &str = "is are sits sit stands stand standing sitting glows glow glowing visible seen soft softly blurred blurry blurring \
     out of focus dark bright just right directly still clearly nicely showing shining lit all both up there 's lies lying hanging \
-    looming framed fills filling going gone hazy somewhere now slightly far appears appearing straight";
+    looming framed fills filling going gone hazy somewhere now slightly far appear appears appearing straight show shows come comes \
+    into view pop pops";
 /// Where a background is, behind which no other thing is named.
 const BEHIND: &[&[&str]] = &[
     &["in", "the", "background"],
@@ -123,7 +126,7 @@ impl Linked {
             };
             let [from, end] = found.words;
             let of = found.of.or_else(|| reader.named_before(from));
-            let ids = self.expanded(&[found.id]);
+            let ids = self.expanded(&found.ids);
             at = end.max(at + 1);
             let Some(of) = of.filter(|of| self.expanded(&[*of]) != ids) else { continue };
             bytes.push([words[from].1[0], words[end - 1].1[1]]);
@@ -138,10 +141,10 @@ impl Linked {
     }
 }
 
-/// A background: its first word and the word behind it, the thing, and what it is behind where the words say that.
+/// A background: its first word and the word behind it, the things, and what it is behind where the words say that.
 struct Found {
     words: [usize; 2],
-    id: u32,
+    ids: Vec<u32>,
     of: Option<u32>,
 }
 
@@ -203,15 +206,20 @@ impl Reader<'_> {
         let of = self.thing(end).filter(|_| self.text(end - 1) == "behind").filter(said);
         let end = end + usize::from(of.is_some());
         // `Push past the chair, the lamp behind it and the desk` lists what is passed.
-        let is_whole = self.ends_clause(end) && (of.is_some() || self.named_before(at).is_some());
-        is_whole.then(|| Found { words: [self.first_word(at), end], id, of })
+        // `Until the sideboard and the vase show up behind it`.
+        let pair = at.checked_sub(2).filter(|_| before == "and").and_then(|first| Some((first, self.thing(first)?)));
+        let pair = pair.filter(|(first, _)| *first > 0 && is_listed(SHOWN, self.text(first - 1)));
+        let first = pair.map_or(at, |(first, _)| first);
+        let is_whole = self.ends_clause(end) && (of.is_some() || self.named_before(first).is_some());
+        let ids = pair.into_iter().map(|(_, id)| id).chain([id]).collect();
+        is_whole.then(|| Found { words: [self.first_word(first), end], ids, of })
     }
 
     /// `framed against the window`, `behind it you can see the window`; `at` is the first word.
     fn led_in(&self, at: usize) -> Option<Found> {
         if let Some(thing) = self.after_one_of(at, AGAINST) {
             let id = self.thing(thing)?;
-            return self.ends_clause(thing + 1).then_some(Found { words: [at, thing + 1], id, of: None });
+            return self.ends_clause(thing + 1).then_some(Found { words: [at, thing + 1], ids: vec![id], of: None });
         }
         let is_first = at == 0 || is_listed(", . ; : - with and", self.text(at - 1));
         let mut thing = self.after_one_of(at, OPENS).filter(|_| is_first)?;
@@ -219,7 +227,7 @@ impl Reader<'_> {
             thing += 1;
         }
         let id = self.thing(thing)?;
-        self.ends_clause(thing + 1).then(|| Found { words: [self.first_word(at), thing + 1], id, of: None })
+        self.ends_clause(thing + 1).then(|| Found { words: [self.first_word(at), thing + 1], ids: vec![id], of: None })
     }
 
     /// The first of the words that join a background to what stands before it.
@@ -254,6 +262,11 @@ mod tests {
         ] {
             assert_eq!(read(text), ("push in on <obj-0>".to_owned(), behind.clone()), "{text}");
         }
+        let three =
+            Linked { slots: vec![5, 7, 9], ..linked("arc around <obj-0> until <obj-1> and <obj-2> show up behind it") };
+        let read_three = three.without_backdrops(&[]);
+        assert_eq!(read_three.tokens_text, "arc around <obj-0>");
+        assert_eq!((&read_three.backdrops[0].ids[..], &read_three.backdrops[0].of[..]), (&[7, 9][..], &[5][..]));
         assert_eq!(read("<obj-0> , <obj-1> behind , pull back").0, "<obj-0> , pull back");
     }
 

@@ -6,7 +6,7 @@ use super::captured_side::side_cost;
 use super::clearance::{ClearanceQuery, least_clearance};
 use super::constraint::{Constraint, ConstraintKind};
 use super::contents::contents_cost;
-use super::crowding::{crowding_cost, heap_cost};
+use super::crowding::{crowding_cost, heap_cost, screened_cost};
 use super::framing_cost::framing_cost;
 use super::measure::{SEARCH_POINTS, measure};
 use super::motion::{MotionSegment, StepLabels, keyframes};
@@ -56,6 +56,7 @@ pub(super) fn cost(world: &World, segment: &MotionSegment, suggestion: Option<&C
     total += aside_cost(world, &states) + framing_cost(world, segment, &states);
     total += posture_cost(world, segment, &states) + vertigo_cost(world, segment, &states);
     total += crowding_cost(world, segment, &states) + heap_cost(world, segment, &states);
+    total += screened_cost(world, segment, &states);
     total += contents_cost(world, segment, &states);
     total + pictures_cost(world, &states) + suggestion.map_or(0.0, |proposed| deviation(world, &states[0], proposed))
 }

@@ -9,7 +9,7 @@ use super::constraint::{Constraint, ConstraintKind, Scope};
 use super::framing::{MANY, frame_bounds, frame_ray};
 use super::motion::MotionSegment;
 use super::world::{Subject, World};
-use cinesplat_trajectory::CameraState;
+use cinesplat_trajectory::{CameraState, Move};
 
 /// Cost of a subject before which all of its part of the picture is taken. It grows with the root of the share: a lamp before
 /// the middle of a table spoils the picture, and hides little of it.
@@ -85,6 +85,52 @@ fn crowded_frac(world: &World, state: &CameraState, subject: &Subject) -> f64 {
         taken += if hit.is_some_and(|depth| depth < before) { weight } else { 0.0 };
     }
     if framed > 0.0 { taken / framed } else { 0.0 }
+}
+
+/// Cost of a slide from one thing to another behind things that take all of the picture on the way, and the share of it that
+/// they may take: something that passes before the lens gives depth.
+const SCREENED_COST: f64 = 1.6;
+const FREE_SHARE: f64 = 0.1;
+/// Depth of what is in the way, over that of what the camera slides along.
+const IN_FRONT: f64 = 0.6;
+/// The part of the picture, from its middle, in which it counts: to the sides and above; below it is what the things stand on.
+const SCREEN: [(f64, f64); 2] = [(-0.4, 0.4), (-0.1, 0.35)];
+
+/// Cost of what stands between the camera and the way along which it slides from one thing to another.
+pub(super) fn screened_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    let slides = matches!(segment.movement, Move::TruckLeft | Move::TruckRight);
+    if !slides || segment.is_join || !world.is_indoor() || segment.constraints.iter().any(asks_foreground) {
+        return 0.0;
+    }
+    let centered = |scope: Scope| {
+        segment.constraints.iter().find_map(|constraint| match &constraint.kind {
+            ConstraintKind::Centered(target, _) if constraint.scope == scope => Some(target.aim),
+            _ => None,
+        })
+    };
+    let (Some(from), Some(to)) = (centered(Scope::Start), centered(Scope::End)) else { return 0.0 };
+    let last = states.len() - 1;
+    let taken = |nth: usize| {
+        let state = &states[nth];
+        let way = from.lerp(to, nth as f64 / last as f64);
+        let most = IN_FRONT * (way - state.pose.position).dot(state.pose.forward());
+        let share = |i: u32, count: u32| (f64::from(i) + 0.5) / f64::from(count);
+        let [across, upright] = SCREEN;
+        let rays = (0..RAYS.0).flat_map(|column| (0..RAYS.1).map(move |row| (column, row)));
+        let is_hit = |(column, row): &(u32, u32)| {
+            let at = DVec2::new(
+                across.0 + (across.1 - across.0) * share(*column, RAYS.0),
+                upright.0 + (upright.1 - upright.0) * share(*row, RAYS.1),
+            );
+            let ray = frame_ray(world, state, at);
+            let (length, ray) = (ray.length(), state.pose.rotation * ray.normalize());
+            world.hit_distance(state.pose.position, ray).is_some_and(|distance| distance / length < most)
+        };
+        rays.filter(is_hit).count() as f64 / f64::from(RAYS.0 * RAYS.1)
+    };
+    let moments: Vec<usize> = (1..last).step_by(2).collect();
+    let mean = moments.iter().map(|nth| taken(*nth)).sum::<f64>() / moments.len().max(1) as f64;
+    SCREENED_COST * (mean - FREE_SHARE).max(0.0) / (1.0 - FREE_SHARE)
 }
 
 /// Cost of many things of which all hide one another in the last picture.

@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::constraint::{Constraint, ConstraintKind, Scope};
 use super::framing::{extent_frac, frame_position, in_frame_frac, off_center};
 use super::motion::MotionSegment;
-use super::wall_side::wall_side;
+use super::wall_side::{wall_behind, wall_side};
 use super::world::{Subject, World};
 use cinesplat_geometry::rotation;
 use cinesplat_trajectory::{CameraState, Move};
@@ -31,7 +31,8 @@ pub(super) fn framing_cost(world: &World, segment: &MotionSegment, states: &[Cam
     let sized = cut_cost(world, segment, states) + small_cost(world, segment, states);
     let composed = slide_turn_cost(world, segment, states)
         + askew_cost(world, segment, states)
-        + off_wall_side_cost(world, segment, states);
+        + off_wall_side_cost(world, segment, states)
+        + raked_cost(world, segment, states);
     sized
         + turned
         + soft_cost(world, segment, states)
@@ -95,6 +96,31 @@ fn off_wall_side_cost(world: &World, segment: &MotionSegment, states: &[CameraSt
         constraint.scope.of(&ends).iter().map(beside).fold(0.0, f64::max)
     };
     ALONG_WALL_COST * segment.constraints.iter().map(off).fold(0.0, f64::max)
+}
+
+/// Cost of a slide along a wall that does not face it, and the angles at which it begins and is reached, degrees.
+const RAKED_COST: f64 = 1.2;
+const RAKED_DEG: (f64, f64) = (4.0, 40.0);
+
+/// Cost of a slide or a rise before what stands at a wall or hangs there, askew to that wall, where no words ask for a side:
+/// along pictures, shelves and counters the camera slides square to them.
+fn raked_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    let slides = matches!(segment.movement, Move::TruckLeft | Move::TruckRight | Move::PedestalUp | Move::PedestalDown);
+    let is_sided = |constraint: &Constraint| {
+        matches!(constraint.kind, ConstraintKind::FromSide(..) | ConstraintKind::Backdrop(..))
+    };
+    if !slides || segment.is_join || segment.constraints.iter().any(is_sided) {
+        return 0.0;
+    }
+    let ahead = world.frame.azimuth(-states[states.len() / 2].pose.forward());
+    let off_deg = |constraint: &Constraint| {
+        let square_rad = wall_behind(world, constraint.shown(world)?)?;
+        Some(rotation::short_turn(ahead - square_rad).abs().to_degrees())
+    };
+    let offs: Vec<f64> = segment.constraints.iter().filter_map(off_deg).collect();
+    let (least, most) = RAKED_DEG;
+    let share = |off_deg: f64| ((off_deg - least) / (most - least)).clamp(0.0, 1.0);
+    RAKED_COST * offs.iter().map(|off_deg| share(*off_deg)).sum::<f64>() / offs.len().max(1) as f64
 }
 
 /// Cost of a picture from straight above that shows its subject askew, and the pitch from which on a view is one, radians.

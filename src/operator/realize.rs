@@ -110,9 +110,12 @@ pub fn finalists(
     }
     let sooner = SolveSettings { tries_factor: SAFER_TRIES * settings.tries_factor, ..*settings };
     let solved = |safer: &Program| solved(safer, &sooner, num.min(SAFER_FINALISTS));
-    let solutions = safe_solutions(program, prompt, asked, &solved);
-    let is_thorough = settings.level == SolveLevel::Full;
-    if !is_thorough || !solutions.iter().all(|solution| solution.leaves_room) {
+    let mut solutions = safe_solutions(program, prompt, asked, &solved);
+    if solutions.iter().any(|solution| !solution.leaves_room) {
+        solutions.retain(|solution| !solution.leaves_room);
+        return solutions;
+    }
+    if settings.level != SolveLevel::Full {
         return solutions;
     }
     // Nobody keeps a film of the outside of a room's walls.

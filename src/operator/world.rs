@@ -105,6 +105,9 @@ pub(super) struct Subject {
     /// Azimuth of its free side, seen from its middle, where it stands at a wall. [`wall_side`](super::wall_side::wall_side)
     /// finds it where it is first needed.
     pub(super) wall_side_rad: OnceLock<Option<f64>>,
+    /// Azimuth from which it is seen square to the wall behind it. [`wall_behind`](super::wall_side::wall_behind) finds it where
+    /// it is first needed.
+    pub(super) wall_behind_rad: OnceLock<Option<f64>>,
     /// All Gaussians except its own: what can occlude it.
     others: OpacityGrid,
 }
@@ -368,6 +371,7 @@ impl Subject {
             borne_heights: None,
             bearer: None,
             wall_side_rad: OnceLock::new(),
+            wall_behind_rad: OnceLock::new(),
             others,
         }
     }

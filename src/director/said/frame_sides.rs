@@ -1,8 +1,9 @@
 //! Whose the side of the frame is: `float in on the guitar, plant always frame right` puts the plant there, and the guitar on the
 //! other side.
 
-use cinesplat_language::{Linked, is_listed};
+use cinesplat_language::{Linked, add_ids, is_listed};
 use cinesplat_operator::{FramePlace, Framing, Step};
+use cinesplat_trajectory::Move;
 
 /// Words between a thing and the side of the frame that it is on.
 const BETWEEN: &str = "always is are stays stay kept keeps at on in to the camera frame screen picture always constantly throughout , \
@@ -16,6 +17,9 @@ const ALWAYS: &str = "always throughout constantly whole time";
 pub(crate) fn leave_sides_to_owners(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
         let words = linked.texts_in(step.words.unwrap_or_default());
+        if share_frame(linked, &words, step) {
+            continue;
+        }
         let Some(&[subject]) = step.end.subjects.first_chunk::<1>().filter(|_| step.end.subjects.len() == 1) else {
             continue;
         };
@@ -32,6 +36,42 @@ pub(crate) fn leave_sides_to_owners(linked: &Linked, steps: &mut [Step]) {
             }
         }
     }
+}
+
+/// Puts the first of two things at its side of the frame and keeps the other one, where the words give each a side: `the guitar in the
+/// left half of the picture and the palm in the right half`.
+fn share_frame(linked: &Linked, words: &[&str], step: &mut Step) -> bool {
+    let owners: Vec<(u32, FramePlace)> = (0..words.len()).filter_map(|at| shared_side_of(linked, words, at)).collect();
+    let [(first, side), (second, other)] = owners[..] else { return false };
+    let rests = matches!(step.movement, Move::Static | Move::PushIn | Move::PullOut | Move::ZoomIn | Move::ZoomOut);
+    let of_frame = words.iter().any(|word| is_listed(FRAME, word));
+    let (firsts, seconds) = (linked.expanded(&[first]), linked.expanded(&[second]));
+    if !rests || !of_frame || side == other || firsts.len() != 1 || firsts == seconds {
+        return false;
+    }
+    step.keep.retain(|id| !firsts.contains(id));
+    add_ids(&mut step.keep, &seconds);
+    let framing = Framing { subjects: firsts, place: Some(side), ..Framing::default() };
+    if step.movement != Move::Static {
+        step.start = Framing { size: step.start.size, angle: step.start.angle, ..framing.clone() };
+    }
+    step.end = Framing { size: step.end.size, angle: step.end.angle, height_frac: step.end.height_frac, ..framing };
+    true
+}
+
+/// As [`side_of`], where another thing of the words says what the side is one of.
+fn shared_side_of(linked: &Linked, words: &[&str], at: usize) -> Option<(u32, FramePlace)> {
+    let id = linked.slot_at(words[at])?;
+    let num_between = words[at + 1..].iter().take(5).take_while(|word| is_listed(BETWEEN, word)).count();
+    let place = at + 1 + num_between;
+    let side = match *words.get(place)? {
+        "left" => FramePlace::AtLeft,
+        "right" => FramePlace::AtRight,
+        _ => return None,
+    };
+    let is_side =
+        words.get(place + 1).is_none_or(|word| is_listed(SIDE, word) || is_listed("and , . ; then with", word));
+    is_side.then_some((id, side))
 }
 
 /// The thing at word `at`, with the side of the frame that the words behind it put it on.

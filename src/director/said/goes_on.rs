@@ -1,7 +1,7 @@
 //! Moves that go on to another thing: `pan right from the easel to the palm and continue to the skull`.
 
 use cinesplat_language::{Linked, is_listed};
-use cinesplat_operator::Step;
+use cinesplat_operator::{Framing, Pass, Step, Via};
 use cinesplat_trajectory::Move;
 
 /// Words before what goes on, and what goes on.
@@ -28,6 +28,8 @@ pub(crate) fn go_on(linked: &Linked, steps: &mut [Step]) {
     for nth in 1..steps.len() {
         let before = &steps[nth - 1];
         let (movement, either_way) = (before.movement, before.either_way);
+        // From where a look back ends, the way goes on that it interrupted.
+        let goes_back = before.returns;
         let turns_or_slides = matches!(
             movement,
             Move::PanLeft
@@ -43,8 +45,75 @@ pub(crate) fn go_on(linked: &Linked, steps: &mut [Step]) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let is_plain = step.via.is_none() && step.with.is_empty() && step.start.subjects.is_empty() && !step.cut;
         let is_way = matches!(step.movement, Move::Follow | Move::PushIn) && step.end.size.is_none();
-        if turns_or_slides && is_plain && is_way && !step.end.subjects.is_empty() && goes_on(&words) {
+        if turns_or_slides && !goes_back && is_plain && is_way && !step.end.subjects.is_empty() && goes_on(&words) {
             (step.movement, step.either_way) = (movement, either_way);
+        }
+    }
+}
+
+/// Slides on along something from what the step before shows on it: `hold on the vase, then track right along the sideboard to the
+/// cactus` does not go back to the sideboard.
+pub(crate) fn slide_on(steps: &mut [Step]) {
+    for step in steps.iter_mut().skip(1).filter(|step| !step.cut && !step.end.subjects.is_empty()) {
+        let slides = matches!(step.movement, Move::TruckLeft | Move::TruckRight);
+        let along = step.via.as_ref().filter(|via| slides && via.how == Pass::Along);
+        let begins_with = Framing { subjects: step.start.subjects.clone(), ..Framing::default() };
+        if along.is_some_and(|via| via.objects == step.start.subjects) && step.start == begins_with {
+            step.start = Framing::default();
+        }
+    }
+}
+
+/// Words of who only arrives where a turn leads.
+const LANDS: &str = "land lands landing settle settles settling finish finishes finishing end ends ending stop stops stopping arrive arrives \
+    arriving come comes";
+
+/// Words before what is passed on the way there.
+const PAST: &str = "past by over across via the";
+
+/// Joins a turn or a slide with its arrival, where that is a second one to the same thing: `pan left off the tv, past the armchair, and
+/// land on the curtain`.
+pub(crate) fn join_arrivals(linked: &Linked, steps: &mut Vec<Step>) {
+    let passed = |step: &Step| -> Vec<u32> {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_past = |at: &usize| words[..*at].iter().rev().find(|word| **word != "the") == Some(&"past");
+        let passed: Vec<u32> = (0..words.len()).filter(is_past).filter_map(|at| linked.slot_at(words[at])).collect();
+        linked.expanded(&passed)
+    };
+    let arrives = |before: &Step, step: &Step| {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_before =
+            |word: &&str| is_listed(BEFORE, word) || is_listed(PAST, word) || linked.slot_at(word).is_some();
+        let mut said = words.iter().copied().skip_while(is_before);
+        let lands = said.next().is_some_and(|word| is_listed(LANDS, word))
+            || step.words == before.words && words.iter().any(|word| is_listed(LANDS, word));
+        let plain = Step {
+            words: step.words,
+            end: before.end.clone(),
+            either_way: step.either_way,
+            ..Step::of(before.movement)
+        };
+        let is_plain = *step == plain && !step.end.subjects.is_empty();
+        let turns = matches!(
+            step.movement,
+            Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown | Move::TruckLeft | Move::TruckRight
+        );
+        turns && is_plain && !before.returns && lands
+    };
+    let mut nth = 1;
+    while nth < steps.len() {
+        if arrives(&steps[nth - 1], &steps[nth]) {
+            let arrival = steps.remove(nth);
+            let mut passed = passed(&arrival);
+            passed.retain(|id| !arrival.end.subjects.contains(id) && !steps[nth - 1].start.subjects.contains(id));
+            if !passed.is_empty() && steps[nth - 1].via.is_none() {
+                steps[nth - 1].via = Some(Via { how: Pass::Past, objects: passed });
+            }
+            if let (Some(own), Some(words)) = (steps[nth - 1].words.as_mut(), arrival.words) {
+                own[1] = own[1].max(words[1]);
+            }
+        } else {
+            nth += 1;
         }
     }
 }
@@ -68,6 +137,35 @@ mod tests {
         let mut steps = [about(first, &[5], [0, at]), about(Move::Follow, &[7], [at + 1, text.len()])];
         go_on(&linked(text), &mut steps);
         steps[1].movement
+    }
+
+    #[test]
+    fn a_slide_along_a_table_begins_with_what_is_shown_on_it() {
+        let text = "hold on <obj-1> and track right along <obj-0>";
+        let slide = |start: &[u32]| {
+            let mut slide = about(Move::TruckRight, &[9], [16, text.len()]);
+            slide.start.subjects = start.to_vec();
+            slide.via = Some(Via { how: Pass::Along, objects: vec![5] });
+            let mut steps = [about(Move::Static, &[7], [0, 15]), slide];
+            slide_on(&mut steps);
+            steps[1].start.subjects.clone()
+        };
+        assert_eq!(slide(&[5]), [0; 0]);
+        assert_eq!(slide(&[7]), [7]);
+    }
+
+    #[test]
+    fn a_turn_arrives_once() {
+        let text = "pan left off <obj-0> , past <obj-1> , and land on <obj-0>";
+        let steps = |second: [usize; 2]| {
+            let mut steps = vec![about(Move::PanLeft, &[9], [0, 20]), about(Move::PanLeft, &[9], second)];
+            join_arrivals(&linked(text), &mut steps);
+            steps
+        };
+        assert_eq!(steps([0, text.len()]).len(), 2);
+        let joined = steps([21, text.len()]);
+        assert_eq!((joined.len(), joined[0].via.clone()), (1, Some(Via { how: Pass::Past, objects: vec![7] })));
+        assert_eq!(steps([0, 20]).len(), 2);
     }
 
     #[test]

@@ -66,6 +66,14 @@ fn last_sentence_secs(linked: &Linked, words: &[&str]) -> Option<f64> {
     (takes && sentence.iter().all(is_plain)).then(|| linked.secs_at(secs)).flatten()
 }
 
+/// Takes the length of the film from a step of several, which would leave the others none of it.
+pub(crate) fn share_film_length(program: &mut Program) {
+    let Some(secs) = program.duration_secs.filter(|_| program.steps.len() > 1) else { return };
+    for step in &mut program.steps {
+        step.duration_secs = step.duration_secs.filter(|own| *own < secs);
+    }
+}
+
 /// Gives the film a length that stands alone in a clause behind all moves: `.., then a slow zoom in on the vase, airy
 /// loft, 12 seconds`. Where a step has a length of its own, or the last one holds, it is the last step's.
 pub(crate) fn take_film_length(linked: &Linked, program: &mut Program) {

@@ -53,6 +53,31 @@ pub(crate) fn roll_as_said(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Rolls the horizon back by the angle by which it was rolled before: `roll 15 degrees left, then undo it`.
+pub(crate) fn roll_back(linked: &Linked, steps: &mut Vec<Step>) {
+    let rolled = |step: &Step| {
+        let moves = std::iter::once(&step.movement).chain(&step.with);
+        moves.copied().find(|movement| matches!(movement, Move::RollCw | Move::RollCcw))
+    };
+    let undoes = |words: &[&str]| words.windows(2).any(|pair| matches!(pair, ["undo" | "undoing", "it"]));
+    let Some(first) = steps.iter().position(|step| rolled(step).is_some()) else { return };
+    let Some(back) = rolled(&steps[first]).map(|roll| if roll == Move::RollCw { Move::RollCcw } else { Move::RollCw })
+    else {
+        return;
+    };
+    let amount = steps[first].amount.clone();
+    let says = |step: &Step| undoes(&linked.texts_in(step.words.unwrap_or_default()));
+    let Some(nth) = steps.iter().position(says) else { return };
+    let is_back = nth > first && matches!(steps[nth].movement, Move::RollCw | Move::RollCcw | Move::Static);
+    if is_back {
+        let step = &mut steps[nth];
+        (step.movement, step.amount, step.returns, step.either_way) = (back, amount, false, false);
+    } else if steps[first + 1..].iter().all(|step| rolled(step).is_none()) {
+        let undone = Step { amount, words: steps[first].words, ..Step::of(back) };
+        steps.insert(first + 1, undone);
+    }
+}
+
 /// Rests on what a travel begins and ends with: there is no way between.
 pub(crate) fn rest_where_nothing_leads(steps: &mut [Step]) {
     for step in steps.iter_mut().filter(|step| step.movement == Move::Follow && step.via.is_none()) {

@@ -158,6 +158,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     circles::close_circles(linked, direction);
     circles::join_said_again(linked, direction);
     take_said_of_pictures(linked, &mut direction.program.steps);
+    looks::roll_back(linked, &mut direction.program.steps);
     take_said_of_moves(linked, direction);
     Ok(())
 }
@@ -212,6 +213,7 @@ fn take_said_of_views(linked: &Linked, steps: &mut [Step]) {
     facing::look_down_on_tops(linked, steps);
     directions::lead_between_ends(linked, steps);
     unsaid_parts::drop_unsaid_parts(linked, steps);
+    unsaid_parts::drop_unsaid_amounts(linked, steps);
     first_pictures::begin_at_named(linked, steps);
     frame_sides::leave_sides_to_owners(linked, steps);
 }
@@ -219,6 +221,7 @@ fn take_said_of_views(linked: &Linked, steps: &mut [Step]) {
 /// Corrects the moves of a direction, whose pictures are settled, by what the words say plainly.
 fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     lengths::take_film_length(linked, &mut direction.program);
+    lengths::share_film_length(&mut direction.program);
     rates::take_rates(linked, direction);
     bans::drop_misplaced_bans(linked, &mut direction.program);
     bans::rule_out_turns(linked, &mut direction.program);
@@ -240,7 +243,10 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     carriers::carry_as_said(linked, &mut direction.program.steps);
     arrivals::go_between_stops(linked, &mut direction.program.steps);
     goes_on::go_on(linked, &mut direction.program.steps);
+    goes_on::slide_on(&mut direction.program.steps);
+    goes_on::join_arrivals(linked, &mut direction.program.steps);
     stands::stand_at_opening(linked, &mut direction.program.steps);
+    stands::stand_where_wide(linked, &mut direction.program.steps);
     stands::stand_at_side(linked, &mut direction.program.steps);
     stands::open_on_sides(linked, &mut direction.program.steps);
     postures::stand_low(linked, direction);

@@ -1,9 +1,9 @@
 //! Where the camera stands and how it sees its subject when the film begins: `start at the window looking in`, `low, front of
 //! the car`.
 
-use cinesplat_language::Linked;
+use cinesplat_language::{Linked, is_listed};
 use cinesplat_operator::{Framing, Pass, Step, SubjectSide, Via};
-use cinesplat_trajectory::{Move, ShotAngle};
+use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
 use super::openings::OPENS;
 
@@ -43,6 +43,33 @@ pub(crate) fn stand_at_opening(linked: &Linked, steps: &mut [Step]) {
     if framing.subjects.is_empty() && step.movement != Move::PushIn {
         framing.subjects = seen;
     }
+    step.via = Some(Via { how: Pass::From, objects: place });
+}
+
+/// Words of a picture of a place as a whole, and the place.
+const WIDES: &str = "wide establishing establish establisher establishment master overview panorama long";
+const ROOMS: &str = "room bedroom kitchen studio office place space whole entire scene flat apartment house living sitting dining shot view \
+    picture of the a an our my";
+
+/// Stands at the thing from which the film opens on the room: `a wide shot of the bedroom from the door`.
+pub(crate) fn stand_where_wide(linked: &Linked, steps: &mut [Step]) {
+    let Some(step) = steps.first_mut() else { return };
+    let words = linked.texts_in(step.words.unwrap_or_default());
+    let place_at = |at: usize| {
+        let named = words[at + 1..].iter().take(3).find(|word| !is_listed("the our my a that", word))?;
+        let id = linked.slot_at(named)?;
+        let mut before = words[..at].iter().rev().skip_while(|word| is_listed(ROOMS, word));
+        (words[at] == "from" && before.next().is_some_and(|word| is_listed(WIDES, word))).then_some(id)
+    };
+    let Some(id) = (0..words.len()).find_map(place_at) else { return };
+    let place = linked.expanded(&[id]);
+    let is_only = |framing: &Framing| framing.subjects.is_empty() || framing.subjects == place;
+    if !is_only(&step.start) || !is_only(&step.end) {
+        return;
+    }
+    let size = step.start.size.or(step.end.size).or(Some(ShotSize::ExtremeLong));
+    *step = Step { words: step.words, duration_secs: step.duration_secs, speed: step.speed, ..Step::of(Move::Static) };
+    step.end.size = size;
     step.via = Some(Via { how: Pass::From, objects: place });
 }
 

@@ -1,7 +1,7 @@
 //! Parts of things that no words name: `from tight on the skull swoop backwards` begins on the skull, and not on its top.
 
 use cinesplat_language::{Linked, is_listed};
-use cinesplat_operator::{Step, SubjectPart};
+use cinesplat_operator::{Amount, Step, SubjectPart};
 use cinesplat_trajectory::Move;
 
 /// Words of parts and of places on a thing.
@@ -34,6 +34,23 @@ pub(crate) fn drop_unsaid_parts(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Words of a move that goes far.
+const FAR: &str = "lot lots way far all big long large huge sweeping sweep sweeps full fully whole entire right much deep deeply across wide \
+    massive massively great good plenty miles dramatic dramatically complete completely round circle circles lap laps revolution \
+    proper loads tons substantial substantially major half halfway once";
+
+/// Takes back that a circle goes far where no words say so.
+pub(crate) fn drop_unsaid_amounts(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement.is_circular() && step.amount == Some(Amount::Large)) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        // `To the right` is no `right round`.
+        let is_side = |at: usize| words[at] == "right" && words.get(at + 1).is_none_or(|next| *next != "round");
+        if !words.is_empty() && !(0..words.len()).any(|at| is_listed(FAR, words[at]) && !is_side(at)) {
+            step.amount = None;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::fixture::{about, linked};
@@ -55,5 +72,18 @@ mod tests {
         assert_eq!(part("from tight on the top of <obj-0> swoop backwards", Move::PullOut), SubjectPart::Top);
         assert_eq!(part("from up on <obj-0> pull back", Move::PullOut), SubjectPart::Top);
         assert_eq!(part("tilt over <obj-0>", Move::TiltDown), SubjectPart::Top);
+    }
+
+    #[test]
+    fn only_words_make_a_circle_large() {
+        let amount = |text: &str| {
+            let mut step = about(Move::OrbitRight, &[5], [0, text.len()]);
+            step.amount = Some(Amount::Large);
+            drop_unsaid_amounts(&linked(text), std::slice::from_mut(&mut step));
+            step.amount
+        };
+        assert_eq!(amount("orbit right around <obj-0>"), None);
+        assert_eq!(amount("a big orbit around <obj-0>"), Some(Amount::Large));
+        assert_eq!(amount("orbit right round <obj-0>"), Some(Amount::Large));
     }
 }

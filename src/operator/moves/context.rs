@@ -15,6 +15,7 @@ use crate::view::{
     CIRCLING_OVERHEAD_DEG, OVERHEAD_DEG, ViewRange, aimed, azimuth_across, broadside_azimuths, height_band_frac, lerp,
     opening_view,
 };
+use crate::wall_side::wall_behind;
 use crate::world::World;
 use cinesplat_trajectory::{CameraState, Easing, Move, ShotSize};
 
@@ -224,6 +225,10 @@ impl<'a> StepContext<'a> {
         match self.world.known_front(target.center) {
             Some(front) => azimuths_rad.push(front),
             None => azimuths_rad.extend(broadside_azimuths(&self.world.frame, &target.corners)),
+        }
+        if matches!(self.step.movement, Move::TruckLeft | Move::TruckRight | Move::PedestalUp | Move::PedestalDown) {
+            let first = target.ids.first().and_then(|id| self.world.subject(*id));
+            azimuths_rad.extend(first.and_then(|subject| wall_behind(self.world, subject)));
         }
         let height = framing.height_frac.or(framing.size.map(|size| size.height_band_frac().0));
         let close = height.is_some_and(|height| height >= 0.8);

@@ -8,7 +8,7 @@ use crate::composition::lens_fov_deg;
 use crate::constraint::{Constraint, ConstraintKind, Scope};
 use crate::framing::Target;
 use crate::motion::{Angle, MotionSegment};
-use crate::program::{Framing, Pass, Via};
+use crate::program::{Framing, Pass, Step, Via};
 use cinesplat_trajectory::{Move, ShotAngle};
 
 /// Tolerance of a stated height in the frame, and of a stated distance, over itself.
@@ -50,6 +50,7 @@ pub(super) fn require(context: &StepContext, segments: &mut [MotionSegment]) {
         leave_frame(context, own);
         add(own, Scope::End, closed_in_on(context));
         add(own, Scope::All, passages(step.via.as_ref().filter(|_| !skims(context))));
+        add(own, Scope::Any, passed_in_turn(step));
         require_shoulder(context, own);
     }
 }
@@ -63,6 +64,17 @@ fn passages(via: Option<&Via>) -> Vec<ConstraintKind> {
         how => how,
     };
     via.objects.iter().map(|&id| ConstraintKind::Passed(how, id)).collect()
+}
+
+/// Share of what a turn passes that is in the picture at some moment.
+const PASSED_FRAC: f64 = 0.6;
+
+/// What a turn passes is seen on the way: `pan left from the television, past the armchair, to the curtain`.
+fn passed_in_turn(step: &Step) -> Vec<ConstraintKind> {
+    let turns = matches!(step.movement, Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown);
+    let via = step.via.as_ref().filter(|via| turns && via.how == Pass::Past);
+    let ids = via.map(|via| via.objects.as_slice()).unwrap_or_default();
+    ids.iter().map(|&id| ConstraintKind::InFrame(vec![id], PASSED_FRAC)).collect()
 }
 
 fn add(segment: &mut MotionSegment, scope: Scope, kinds: Vec<ConstraintKind>) {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use super::context::{StepContext, require_visible};
+use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
 use super::passes::gate;
 use super::standing_view::stands;
 use super::turns::is_along;
@@ -21,16 +21,41 @@ pub(super) fn truck(context: &StepContext) -> Vec<MotionSegment> {
     let direction = if sign > 0.0 { TravelDirection::Right } else { TravelDirection::Left };
     slide(context, direction, along, |context, target, state| {
         let right = state.pose.right() * sign;
-        frame_depth(context, state, target.aim).map(|_| (target.aim - state.pose.position).dot(right)).map(|way| {
-            let half = target.corners.iter().map(|c| (*c - target.aim).dot(right)).fold(0.0, f64::max);
-            way + match context.step.end.part {
-                SubjectPart::Left => -half * 0.8 * sign,
-                SubjectPart::Right => half * 0.8 * sign,
-                _ => 0.0,
-            }
-        })
+        frame_depth(context, state, target.aim)
+            .map(|_| (target.aim - state.pose.position).dot(right))
+            .map(|way| way + (end_of(target, context.step.end.part, state) - target.aim).dot(right))
     })
 }
+
+/// A point near the left or the right end of a target, as a camera sees it; the target's aim for other parts.
+fn end_of(target: &Target, part: SubjectPart, state: &CameraState) -> DVec3 {
+    let toward = match part {
+        SubjectPart::Left => -state.pose.right(),
+        SubjectPart::Right => state.pose.right(),
+        _ => return target.aim,
+    };
+    let half = target.corners.iter().map(|c| (*c - target.aim).dot(toward)).fold(0.0, f64::max);
+    target.aim + toward * (NEAR_END * half)
+}
+
+/// The first camera of a slide from one end of a target to the other: square before its middle, and then aside to the end.
+fn before_end(context: &StepContext, target: &Target) -> CameraState {
+    let part = context.step.start.part;
+    let framing = Framing { part: SubjectPart::Middle, ..context.opening_framing() };
+    let middle = context.view(target, &framing, ALONG_SLIDE_FILL, NORMAL_LENS_DEG);
+    let right = middle.pose.right();
+    moved(&middle, right * (end_of(target, part, &middle) - target.aim).dot(right))
+}
+
+/// A target of the one of its subjects that is nearest to its aim, where it has several.
+fn one_at(context: &StepContext, target: Target) -> Target {
+    let away = |id: &u32| context.world.subject(*id).map_or(f64::INFINITY, |thing| thing.center.distance(target.aim));
+    let nearest = target.ids.iter().copied().min_by(|a, b| away(a).total_cmp(&away(b)));
+    Target { ids: nearest.into_iter().collect(), ..target }
+}
+
+/// Distance from the middle of a target to where its left or right end is looked at, over half its length.
+const NEAR_END: f64 = 0.75;
 
 /// Slides up or down.
 pub(super) fn pedestal(context: &StepContext) -> Vec<MotionSegment> {
@@ -81,6 +106,7 @@ fn slide(
         if travels { context.opening_target() } else { passed.clone().unwrap_or_else(|| context.main_target()) };
     let (mut segments, mut first) = match (&context.before, &context.start) {
         (Some(before), None) => (Vec::new(), *before),
+        (None, _) if is_along(context) => (Vec::new(), before_end(context, &target)),
         _ => context.opened_on(&target, if is_along(context) { ALONG_SLIDE_FILL } else { SLIDE_FILL }),
     };
     let placed = context.before.is_some() || stands(&context.standing());
@@ -129,12 +155,19 @@ fn slide(
     segment =
         segment.requiring(Scope::All, ConstraintKind::Travel(direction, target.aim, if slight { 0.02 } else { 0.24 }));
     if travels {
-        segment = segment.requiring(Scope::Start, ConstraintKind::Centered(target.clone(), 0.22));
+        let at = |target: &Target, part: SubjectPart| match part {
+            SubjectPart::Left | SubjectPart::Right if is_along(context) => {
+                one_at(context, Target { aim: end_of(target, part, &first), ..target.clone() })
+            }
+            _ => target.clone(),
+        };
+        let [opening, ending] = [&context.step.start, &context.step.end].map(|framing| framing.part);
+        segment = segment.requiring(Scope::Start, ConstraintKind::Centered(at(&target, opening), 0.22));
         if let Some(end) = &context.end {
-            segment = segment.requiring(Scope::End, ConstraintKind::Centered(end.clone(), 0.2));
-            segment = require_visible(segment, end, Scope::End);
+            segment = segment.requiring(Scope::End, ConstraintKind::Centered(at(end, ending), 0.2));
+            segment = require_visible(segment, &at(end, ending), Scope::End);
         }
-        segment = require_visible(segment, &target, Scope::Start);
+        segment = require_visible(segment, &at(&target, opening), Scope::Start);
     } else if context.before.is_none() {
         let ids: Vec<u32> = target.ids.iter().take(1).copied().collect();
         let (scope, share) = if same { (Scope::All, 0.35) } else { (Scope::All, 0.3) };

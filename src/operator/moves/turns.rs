@@ -9,7 +9,7 @@ use super::standing_view::stands;
 use crate::constraint::{Constraint, ConstraintKind, Scope};
 use crate::framing::Target;
 use crate::motion::MotionSegment;
-use crate::program::{Amount, Framing, SubjectPart};
+use crate::program::{Amount, Framing, Motion, SubjectPart};
 use crate::view::{aimed, aimed_at_side, lerp, moved, with_fov};
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::{CameraState, Move, ShotAngle};
@@ -165,8 +165,10 @@ fn is_between(context: &StepContext) -> bool {
 fn leveled(context: &StepContext, [first, last]: [CameraState; 2], is_pinned: bool) -> (CameraState, CameraState) {
     let pitch = |state: &CameraState| context.world.frame.angles(state.pose.rotation).pitch_rad;
     let climb_rad = pitch(&last) - pitch(&first);
-    let excess_rad = (climb_rad.abs() - LEVEL_PAN_RAD).max(0.0);
-    let most_rad = LEVELED_FRAC * first.fov_y_rad.min(last.fov_y_rad);
+    // Where the words rule out tilts, the pitch stays.
+    let is_level = context.forbidden.contains(&Motion::Tilt);
+    let excess_rad = if is_level { climb_rad.abs() } else { (climb_rad.abs() - LEVEL_PAN_RAD).max(0.0) };
+    let most_rad = if is_level { excess_rad } else { LEVELED_FRAC * first.fov_y_rad.min(last.fov_y_rad) };
     let share = if is_pinned { 1.0 } else { 0.5 };
     let by_rad = (share * excess_rad).min(most_rad).copysign(climb_rad);
     let first = if is_pinned { first } else { turned(context, &first, 0.0, by_rad) };
