@@ -4,6 +4,7 @@ use glam::{DVec2, DVec3};
 
 use super::framing::{MANY, Target, frame_ray};
 use super::program::{FramePlace, Framing, Lens, SubjectSide};
+use super::wall_side::wall_behind;
 use super::world::World;
 use cinesplat_geometry::{LevelAngles, Pose, rotation};
 use cinesplat_trajectory::CameraState;
@@ -81,11 +82,15 @@ pub(super) fn lens_fov_deg(lens: Lens) -> (f64, f64) {
     }
 }
 
-/// Azimuth, seen from the point, of the front of the subject there: the known one, or else that of the middle of the
-/// scene, or of the best viewpoint where the subject itself is in the middle.
+/// Azimuth, seen from the point, of the front of the subject there: the known one, or else away from the wall behind it, or else
+/// that of the middle of the scene, or of the best viewpoint where the subject itself is in the middle.
 pub(super) fn front_azimuth(world: &World, center: DVec3) -> f64 {
-    if let Some(known) = world.known_front(center) {
+    if let Some(known) = world.known_front(center).or_else(|| world.facing(center)) {
         return known;
+    }
+    let at_wall = world.subject_at(center).and_then(|subject| wall_behind(world, subject));
+    if let Some(square) = at_wall {
+        return square;
     }
     let level = |to: DVec3| world.frame.horizontal(to - center);
     let to_middle = level(world.bounds.center());

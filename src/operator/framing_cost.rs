@@ -2,9 +2,11 @@
 
 use glam::DVec3;
 
+use super::composition::square_azimuths;
 use super::constraint::{Constraint, ConstraintKind, Scope};
 use super::framing::{extent_frac, frame_position, in_frame_frac, off_center};
 use super::motion::MotionSegment;
+use super::program::SubjectSide;
 use super::wall_side::{wall_behind, wall_side};
 use super::world::{Subject, World};
 use cinesplat_geometry::rotation;
@@ -32,7 +34,8 @@ pub(super) fn framing_cost(world: &World, segment: &MotionSegment, states: &[Cam
     let composed = slide_turn_cost(world, segment, states)
         + askew_cost(world, segment, states)
         + off_wall_side_cost(world, segment, states)
-        + raked_cost(world, segment, states);
+        + raked_cost(world, segment, states)
+        + unsquare_cost(world, segment, states);
     sized
         + turned
         + soft_cost(world, segment, states)
@@ -74,6 +77,8 @@ fn slide_turn_cost(world: &World, segment: &MotionSegment, states: &[CameraState
 /// degrees.
 const ALONG_WALL_COST: f64 = 0.8;
 const ALONG_WALL_DEG: (f64, f64) = (42.0, 80.0);
+/// The same of what faces people, from behind.
+const BEHIND_DEG: (f64, f64) = (75.0, 135.0);
 
 /// Cost of pictures that see what stands at a wall from beside it, where no words ask for a side: nobody looks at a bookshelf
 /// along its wall.
@@ -85,10 +90,11 @@ fn off_wall_side_cost(world: &World, segment: &MotionSegment, states: &[CameraSt
     }
     let off = |constraint: &Constraint| {
         let Some(subject) = constraint.shown(world) else { return 0.0 };
-        let Some(front_rad) = wall_side(world, subject) else { return 0.0 };
+        let faced = || subject.facing_rad.filter(|_| world.is_indoor()).map(|facing_rad| (facing_rad, BEHIND_DEG));
+        let side = wall_side(world, subject).map(|front_rad| (front_rad, ALONG_WALL_DEG)).or_else(faced);
+        let Some((front_rad, (least, most))) = side else { return 0.0 };
         let beside = |state: &CameraState| {
             let azimuth = world.frame.azimuth(state.pose.position - subject.center);
-            let (least, most) = ALONG_WALL_DEG;
             let off_deg = rotation::short_turn(azimuth - front_rad).abs().to_degrees();
             ((off_deg - least) / (most - least)).clamp(0.0, 1.0)
         };
@@ -121,6 +127,31 @@ fn raked_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) ->
     let (least, most) = RAKED_DEG;
     let share = |off_deg: f64| ((off_deg - least) / (most - least)).clamp(0.0, 1.0);
     RAKED_COST * offs.iter().map(|off_deg| share(*off_deg)).sum::<f64>() / offs.len().max(1) as f64
+}
+
+/// Cost of a view from the front, where the words ask for that, that is not square to it, and the angles at which it begins and is
+/// reached, degrees.
+const UNSQUARE_COST: f64 = 0.9;
+const UNSQUARE_DEG: (f64, f64) = (2.0, 25.0);
+
+/// Cost of pictures that see a subject from the front only about.
+fn unsquare_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    if segment.is_join || segment.movement.is_circular() || !world.is_indoor() {
+        return 0.0;
+    }
+    let ends = [states[0], states[states.len() - 1]];
+    let off = |constraint: &Constraint| {
+        let ConstraintKind::FromSide(target, side @ SubjectSide::FromFront) = &constraint.kind else { return 0.0 };
+        let Some(square_rad) = square_azimuths(world, target, *side).first().copied() else { return 0.0 };
+        let (least, most) = UNSQUARE_DEG;
+        let share = |state: &CameraState| {
+            let azimuth = world.frame.azimuth(state.pose.position - target.center);
+            let off_deg = rotation::short_turn(azimuth - square_rad).abs().to_degrees();
+            ((off_deg - least) / (most - least)).clamp(0.0, 1.0)
+        };
+        constraint.scope.of(&ends).iter().map(share).fold(0.0, f64::max)
+    };
+    UNSQUARE_COST * segment.constraints.iter().map(off).fold(0.0, f64::max)
 }
 
 /// Cost of a picture from straight above that shows its subject askew, and the pitch from which on a view is one, radians.

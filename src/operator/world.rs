@@ -97,6 +97,8 @@ pub(super) struct Subject {
     pub(super) facets: Facets,
     /// Azimuth of its front, seen from its middle, where that is known.
     pub(super) front_rad: Option<f64>,
+    /// Azimuth to which it faces people in a room, seen from its middle: a seat away from its back, a screen to who sits there.
+    pub(super) facing_rad: Option<f64>,
     /// Heights along up of the surface on which other things stand and of the highest of them; `None` where nothing
     /// stands on it.
     pub(super) borne_heights: Option<[f64; 2]>,
@@ -196,6 +198,19 @@ impl World {
         }
     }
 
+    /// Says which way a subject in a room faces people, by a direction from its middle: a guess that views prefer.
+    pub fn set_facing(&mut self, id: u32, direction: DVec3) {
+        let azimuth = self.frame.azimuth(direction);
+        if let Some(subject) = self.subjects.get_mut(&id) {
+            subject.facing_rad = Some(azimuth);
+        }
+    }
+
+    /// Azimuth to which the subject with this middle faces people, where that is known.
+    pub(super) fn facing(&self, center: DVec3) -> Option<f64> {
+        self.subject_at(center)?.facing_rad
+    }
+
     /// Says which way the front of the only thing of a scan faces, by a direction from its middle: it is the front of the
     /// scene and of the thing and its parts, by their `ids`.
     pub fn set_front_of_whole(&mut self, ids: &[u32], direction: DVec3) {
@@ -203,14 +218,15 @@ impl World {
         ids.iter().for_each(|id| self.set_front(*id, direction));
     }
 
+    /// The subject with this middle.
+    pub(super) fn subject_at(&self, center: DVec3) -> Option<&Subject> {
+        let tolerance = 1e-6 * self.bounds.size();
+        self.subjects.values().find(|subject| subject.center.distance(center) <= tolerance)
+    }
+
     /// Azimuth of the front of the subject with this middle, or of the scene as a whole, where it is known.
     pub(super) fn known_front(&self, center: DVec3) -> Option<f64> {
-        let tolerance = 1e-6 * self.bounds.size();
-        let subject = self.subjects.values().find(|subject| subject.center.distance(center) <= tolerance);
-        match subject {
-            Some(subject) => subject.front_rad,
-            None => self.front_rad,
-        }
+        self.subject_at(center).map_or(self.front_rad, |subject| subject.front_rad)
     }
 
     /// Distance from a world point to the nearest matter, scene units; 0 inside. At most a little more than twice the
@@ -368,6 +384,7 @@ impl Subject {
             outline,
             facets,
             front_rad: None,
+            facing_rad: None,
             borne_heights: None,
             bearer: None,
             wall_side_rad: OnceLock::new(),

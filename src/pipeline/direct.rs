@@ -1,6 +1,7 @@
 use super::choose_film::{Critique, FilmChoice, choose_film};
 use super::clearance::reach_of;
 use super::error::PipelineError;
+use super::facing::face_people;
 use super::interpreter::{Interpreter, names};
 use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
@@ -243,6 +244,9 @@ fn film(
     let subjects = looks.then(|| times.measure(Phase::Judge, || Subjects::new(&scene.gaussians, objects, &ids)));
     if let Some(subjects) = subjects.as_ref().filter(|_| !world.is_indoor()) {
         times.measure(Phase::Judge, || turn_to_fronts((scene, objects), (subjects, &ids), &mut world))?;
+    }
+    if looks && world.is_indoor() {
+        face_people(&scene.gaussians, objects, &ids, &mut world);
     }
     let program = &direction.program;
     // A shaky camera keeps clear wherever the hand takes it.

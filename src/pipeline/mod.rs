@@ -10,6 +10,7 @@ mod clearance;
 mod direct;
 mod doubtful_rests;
 mod error;
+mod facing;
 mod few_things;
 mod film;
 mod film_pictures;

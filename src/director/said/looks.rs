@@ -2,7 +2,7 @@
 //! over 15 degrees`.
 
 use cinesplat_language::{Linked, is_listed};
-use cinesplat_operator::{Amount, Framing, Step, SubjectSide};
+use cinesplat_operator::{Amount, FramePlace, Framing, Step, SubjectSide};
 use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::directions::is_form;
@@ -14,9 +14,13 @@ const SYMMETRIC: &str = "symmetrical symmetric symmetry symmetrically";
 pub(crate) fn face_symmetric(linked: &Linked, steps: &mut [Step]) {
     for step in steps.iter_mut().filter(|step| !step.movement.is_circular()) {
         let words = linked.texts_in(step.words.unwrap_or_default());
+        if step.end.side == Some(SubjectSide::FromFront) && step.end.place == Some(FramePlace::AtCenter) {
+            level_view(step);
+        }
         let at = words.iter().position(|word| is_listed(SYMMETRIC, word));
         let Some(at) = at.filter(|_| step.end.side.is_none() && !step.end.subjects.is_empty()) else { continue };
         step.end.side = Some(SubjectSide::FromFront);
+        level_view(step);
         // The thing that the words call so is the first one.
         let named = words[..at].iter().rev().take(3).find_map(|word| linked.slot_at(word));
         if let Some(id) = named.map(|id| linked.expanded(&[id])).filter(|ids| ids.len() == 1).map(|ids| ids[0])
@@ -26,6 +30,15 @@ pub(crate) fn face_symmetric(linked: &Linked, steps: &mut [Step]) {
             subjects.swap(0, place);
             step.end.subjects = subjects;
         }
+    }
+}
+
+/// Looks level at what is symmetrical, where the words leave that open: from above its uprights would lean.
+fn level_view(step: &mut Step) {
+    let is_open = step.end.angle.is_none() && step.end.height.is_none() && step.end.elevation_deg.is_none();
+    let keeps = matches!(step.movement, Move::PushIn | Move::PullOut | Move::Static | Move::ZoomIn | Move::ZoomOut);
+    if is_open && keeps {
+        step.end.angle = Some(ShotAngle::EyeLevel);
     }
 }
 

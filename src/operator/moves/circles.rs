@@ -134,7 +134,10 @@ const SQUEEZED_LENS_DEG: f64 = 72.0;
 fn deg_to_side(context: &StepContext, target: &Target, from_rad: f64, sign: f64) -> Option<f64> {
     let stated = stated_azimuths(context.world, target, &context.step.end).filter(|_| context.step.amount.is_none())?;
     let turn = |to: f64| ((to - from_rad) * sign).rem_euclid(std::f64::consts::TAU).to_degrees();
-    let turns = stated.0.into_iter().map(turn);
+    // A background may stand beside the subject: the camera need not go all the way.
+    let is_before = context.step.end.side.is_none();
+    let beside_rad = if is_before { sign * stated.1 * lerp((-1.0, 0.2), context.parameters[6]) } else { 0.0 };
+    let turns = stated.0.into_iter().map(|to| turn(to + beside_rad));
     Some(turns.map(|deg| if deg < 20.0 { deg + 360.0 } else { deg }).fold(f64::INFINITY, f64::min))
 }
 

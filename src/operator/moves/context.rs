@@ -222,7 +222,7 @@ impl<'a> StepContext<'a> {
             return view;
         }
         let mut azimuths_rad = self.azimuths_rad.clone();
-        match self.world.known_front(target.center) {
+        match self.world.known_front(target.center).or_else(|| self.world.facing(target.center)) {
             Some(front) => azimuths_rad.push(front),
             None => azimuths_rad.extend(broadside_azimuths(&self.world.frame, &target.corners)),
         }

@@ -108,11 +108,15 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
     };
     let framing = &context.step.end;
     let wall_front_rad = wall_front(context, end);
+    let facing_rad = world.facing(end.center);
     let azimuth_rad = match stated_azimuths(world, end, framing) {
         Some((stated, beside_rad)) => nearest(&stated, near.azimuth_rad) + spread(parameters[5]) * beside_rad,
         None => match wall_front_rad {
             // What hangs on a wall or is part of it is looked at from its front.
             Some(front_rad) => front_rad + spread(parameters[5]) * 0.5,
+            None if parameters[4] < FACED_TO && facing_rad.is_some() => {
+                facing_rad.unwrap_or_default() + spread(parameters[5]) * FACED_RAD
+            }
             None => near.azimuth_rad + spread(parameters[5]) * 2.4,
         },
     };
@@ -135,6 +139,9 @@ pub(super) fn end_view(context: &StepContext, end: &Target, first: &CameraState)
 /// Size of what a way ends at, where the words state none: in a room, and of a lone thing, about which there is nothing.
 const END_FILL: (f64, f64) = (0.45, 0.78);
 const LONE_END_FILL: (f64, f64) = (0.62, 0.92);
+/// Value of parameter 4 up to which a way to what faces people ends before it, and how far beside, radians.
+const FACED_TO: f64 = 0.7;
+const FACED_RAD: f64 = 1.0;
 /// Distance at which a walk up to a thing on a wall ends at least, over the height of a standing person's eyes.
 const LEAST_WALL_EYES: f64 = 0.7;
 /// Thickness of a thing on a wall over its width and its height.
