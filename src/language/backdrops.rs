@@ -62,6 +62,7 @@ const BEHIND: &[&[&str]] = &[
     &["in", "the", "distance"],
     &["as", "the", "background"],
     &["as", "a", "background"],
+    &["as", "your", "backdrop"],
     &["as", "the", "backdrop"],
     &["as", "a", "backdrop"],
     &["as", "backdrop"],
@@ -190,6 +191,9 @@ impl Reader<'_> {
     fn placed(&self, at: usize, id: u32) -> Option<Found> {
         let before = at.checked_sub(1).map_or("", |before| self.text(before));
         let is_listed_thing = matches!(before, "," | "-" | ";" | ".");
+        if matches!(before, "use" | "using") {
+            return self.used(at, id);
+        }
         if !is_listed_thing && !is_listed(HAS, before) {
             return None;
         }
@@ -213,6 +217,14 @@ impl Reader<'_> {
         let is_whole = self.ends_clause(end) && (of.is_some() || self.named_before(first).is_some());
         let ids = pair.into_iter().map(|(_, id)| id).chain([id]).collect();
         is_whole.then(|| Found { words: [self.first_word(first), end], ids, of })
+    }
+
+    /// `Use the window as backdrop and push in on the globe`; `at` is the thing.
+    fn used(&self, at: usize, id: u32) -> Option<Found> {
+        let end = self.after_one_of(at + 1, BEHIND).filter(|_| self.text(at + 1) == "as")?;
+        let of = (end..self.words.len()).find_map(|behind| self.thing(behind))?;
+        let end = end + usize::from(matches!(self.text(end), "and" | ","));
+        Some(Found { words: [at - 1, end], ids: vec![id], of: Some(of) })
     }
 
     /// `framed against the window`, `behind it you can see the window`; `at` is the first word.
@@ -267,6 +279,10 @@ mod tests {
         let read_three = three.without_backdrops(&[]);
         assert_eq!(read_three.tokens_text, "arc around <obj-0>");
         assert_eq!((&read_three.backdrops[0].ids[..], &read_three.backdrops[0].of[..]), (&[7, 9][..], &[5][..]));
+        assert_eq!(
+            read("use <obj-1> as backdrop and push in on <obj-0>"),
+            ("push in on <obj-0>".to_owned(), behind.clone())
+        );
         assert_eq!(read("<obj-0> , <obj-1> behind , pull back").0, "<obj-0> , pull back");
     }
 

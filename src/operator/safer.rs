@@ -5,7 +5,7 @@
 
 use super::program::{Amount, Program, Step};
 use super::report::clause;
-use cinesplat_trajectory::{Move, ReportLine};
+use cinesplat_trajectory::{Move, ReportLine, ShotAngle};
 
 /// Longest circle around a thing that stands at a wall, degrees, one try after the other.
 const ARCS_DEG: [f64; 2] = [120.0, 60.0];
@@ -16,13 +16,14 @@ type GiveUp = dyn Fn(&mut Step) -> Option<&'static str>;
 /// Programs in the order in which they are to be tried, each with what it gives up. Each gives up more than the one before;
 /// ones that change nothing are left out.
 pub(super) fn safer_programs(program: &Program, prompt: &str) -> Vec<(Program, Vec<ReportLine>)> {
-    let ways: [&GiveUp; 6] = [
+    let ways: [&GiveUp; 7] = [
         &drop_last_height,
         &drop_reveal,
         &drop_places,
         &|step| shorten(step, ARCS_DEG[0]),
         &|step| shorten(step, ARCS_DEG[1]),
         &drop_pass,
+        &drop_angles,
     ];
     let (mut safer, mut lines) = (program.clone(), Vec::new());
     let mut tries = Vec::new();
@@ -89,6 +90,17 @@ fn shorten(step: &mut Step, most_deg: f64) -> Option<&'static str> {
 /// Goes straight where the words lead past, over or through something.
 fn drop_pass(step: &mut Step) -> Option<&'static str> {
     step.via.take().map(|_| "the way that the words state")
+}
+
+/// Looks from where there is room for a camera, where the words ask for a steep view.
+fn drop_angles(step: &mut Step) -> Option<&'static str> {
+    let mut is_dropped = false;
+    for framing in [&mut step.start, &mut step.end] {
+        let is_steep = matches!(framing.angle, Some(ShotAngle::Worm | ShotAngle::Low | ShotAngle::Overhead));
+        is_dropped |= is_steep;
+        framing.angle = framing.angle.filter(|_| !is_steep);
+    }
+    is_dropped.then_some("the angle from below or from above")
 }
 
 /// Shows the first of several things that no place in the room shows together.

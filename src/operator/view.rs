@@ -152,8 +152,11 @@ pub(super) fn opening_view(
     let sized = framing.size.is_some() || framing.height_frac.is_some() || framing.whole;
     let is_lens_alone = framing.lens.is_some() && framing.distance.is_none() && !framing.hidden && !sized;
     let view = if is_lens_alone { before_wall(world, target, view) } else { view };
-    let lies = free && framing.height.is_none() && framing.elevation_deg.is_none();
-    let view = if lies { above_floor(world, target, framing.angle, view) } else { view };
+    let is_open = framing.distance.is_none() && !framing.hidden;
+    let lies = is_open && framing.height.is_none() && framing.elevation_deg.is_none();
+    let raised = if lies { above_floor(world, target, framing.angle, view) } else { view };
+    // A stated lens stays.
+    let view = if framing.lens.is_some() { with_fov(&raised, view.fov_y_rad) } else { raised };
     aimed_at_side(world, target, framing.part, view)
 }
 

@@ -5,6 +5,7 @@ mod arrivals;
 mod asides;
 mod backdrops;
 mod bans;
+mod between_them;
 mod briefs;
 mod called;
 mod carriers;
@@ -244,6 +245,7 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     arrivals::go_between_stops(linked, &mut direction.program.steps);
     goes_on::go_on(linked, &mut direction.program.steps);
     goes_on::slide_on(&mut direction.program.steps);
+    between_them::pass_between_them(linked, &mut direction.program.steps);
     goes_on::join_arrivals(linked, &mut direction.program.steps);
     stands::stand_at_opening(linked, &mut direction.program.steps);
     stands::stand_where_wide(linked, &mut direction.program.steps);

@@ -36,7 +36,7 @@ pub(crate) fn drop_unsaid_parts(linked: &Linked, steps: &mut [Step]) {
 
 /// Words of a move that goes far.
 const FAR: &str = "lot lots way far all big long large huge sweeping sweep sweeps full fully whole entire right much deep deeply across wide \
-    massive massively great good plenty miles dramatic dramatically complete completely round circle circles lap laps revolution \
+    massive massively great good plenty miles spin spins spinning twirl whirl circling revolve dramatic dramatically complete completely round circle circles lap laps revolution \
     proper loads tons substantial substantially major half halfway once";
 
 /// Takes back that a circle goes far where no words say so.

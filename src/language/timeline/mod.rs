@@ -180,9 +180,6 @@ fn beats_of(words: &[Word], stamps: &[Stamp]) -> Option<Timeline> {
             StampKind::Share(share) => Some(BeatLength::Share(share)),
             StampKind::Number(_) | StampKind::Cut => None,
         };
-        if matches!(length, Some(BeatLength::Secs(secs)) if secs <= 0.0) {
-            return None;
-        }
         let is_last = nth + 1 == stamps.len();
         let is_end = is_last
             && matches!(stamp.kind, StampKind::Point(_) | StampKind::Number(_) | StampKind::Cut)
