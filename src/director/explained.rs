@@ -119,7 +119,9 @@ pub(crate) fn name_by_parts(
             [owner] => Some(owner),
             _ => owners.iter().filter(|(id, _)| before(id).is_some()).max_by_key(|(id, _)| before(id)).copied(),
         };
-        let Some((id, to)) = owner else { continue };
+        // `Its foot` is that of something that was named.
+        let is_owned = is_listed("its his her their", text(at - 1));
+        let Some((id, to)) = owner.filter(|(id, _)| !is_owned || before(id).is_some()) else { continue };
         let is_alone = text(to).chars().all(|letter| !letter.is_alphanumeric())
             || is_listed(BEHIND, text(to))
             || text(to).starts_with("fill");

@@ -1,6 +1,6 @@
 //! Names whose last word says what the thing is: the `dining lamp` is a lamp, and no dining table.
 
-use cinesplat_language::{NamedObject, Relation, Things};
+use cinesplat_language::{NamedObject, Relation, Things, is_listed, tokenize};
 
 use crate::explained::{content, head, is_number, label, may_mean, said};
 use crate::names::FoundMention;
@@ -10,7 +10,7 @@ use crate::placed::Places;
 /// several.
 pub(crate) fn point_by_heads(prompt: &str, objects: &[NamedObject], places: Places<'_>, found: &mut [FoundMention]) {
     for found in found {
-        let words = said(prompt, &found.mention);
+        let words = before_place(said(prompt, &found.mention));
         let [id] = found.mention.ids[..] else { continue };
         let (Some(noun), Some(taken)) = (head(words), label(objects, id)) else { continue };
         if is_number(words) || content(words).len() < 2 || may_mean(&noun, taken) {
@@ -29,6 +29,15 @@ pub(crate) fn point_by_heads(prompt: &str, objects: &[NamedObject], places: Plac
             found.mention.ids = vec![object.id];
         }
     }
+}
+
+/// Words that lead to where a thing is.
+const PLACES: &str = "on in under above below by near beside behind atop";
+
+/// The words of a name before those of a place: `the teal plates` of `the teal plates on the shelf`.
+fn before_place(words: &str) -> &str {
+    let place = tokenize(words).into_iter().skip(1).find(|word| is_listed(PLACES, &word.text));
+    place.and_then(|word| words.get(..word.span[0])).unwrap_or(words)
 }
 
 #[cfg(test)]
@@ -52,5 +61,6 @@ mod tests {
         assert_eq!(pointed("the table leg", 1), 1);
         assert_eq!(pointed("the door frame", 3), 3);
         assert_eq!(pointed("the drawer unit", 4), 4);
+        assert_eq!(pointed("the pink drawers by the teal cabinet", 5), 4);
     }
 }

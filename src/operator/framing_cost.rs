@@ -35,7 +35,8 @@ pub(super) fn framing_cost(world: &World, segment: &MotionSegment, states: &[Cam
         + askew_cost(world, segment, states)
         + off_wall_side_cost(world, segment, states)
         + raked_cost(world, segment, states)
-        + unsquare_cost(world, segment, states);
+        + unsquare_cost(world, segment, states)
+        + wide_cost(world, segment, states);
     sized
         + turned
         + soft_cost(world, segment, states)
@@ -127,6 +128,27 @@ fn raked_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) ->
     let (least, most) = RAKED_DEG;
     let share = |off_deg: f64| ((off_deg - least) / (most - least)).clamp(0.0, 1.0);
     RAKED_COST * offs.iter().map(|off_deg| share(*off_deg)).sum::<f64>() / offs.len().max(1) as f64
+}
+
+/// Cost of a wide lens near a thing, which bends it, where the words state no lens, and the vertical fields of view at which it begins
+/// and is reached, degrees.
+const WIDE_COST: f64 = 0.7;
+const WIDE_DEG: (f64, f64) = (60.0, 86.0);
+
+/// Cost of lenses that are wider than a person would take for a thing in a room.
+fn wide_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    let is_stated = |constraint: &Constraint| {
+        matches!(constraint.kind, ConstraintKind::FieldOfView(_) | ConstraintKind::LensRatio(_))
+    };
+    let is_small = |constraint: &Constraint| {
+        constraint.shown(world).is_some_and(|subject| subject.radius < LARGE_FRAC * world.bounds.size())
+    };
+    if segment.is_join || segment.constraints.iter().any(is_stated) || !segment.constraints.iter().any(is_small) {
+        return 0.0;
+    }
+    let widest = [states[0], states[states.len() - 1]].map(|state| state.fov_y_rad.to_degrees());
+    let (least, most) = WIDE_DEG;
+    WIDE_COST * ((widest[0].max(widest[1]) - least) / (most - least)).clamp(0.0, 1.0)
 }
 
 /// Cost of a view from the front, where the words ask for that, that is not square to it, and the angles at which it begins and is

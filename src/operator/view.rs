@@ -256,7 +256,7 @@ fn above_floor(world: &World, target: &Target, angle: Option<ShotAngle>, view: C
 pub(super) const LYING_RADII: f64 = 1.3;
 /// Pitch of a worm's view and of a low one from the floor, degrees.
 const WORM_PITCH_DEG: f64 = 43.0;
-const LOW_PITCH_DEG: f64 = 14.0;
+const LOW_PITCH_DEG: f64 = 10.0;
 
 /// Distance from a target's aim, in the direction of a bearing, to the point that is `wanted` away from the center of
 /// its first subject.
