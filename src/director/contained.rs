@@ -37,6 +37,11 @@ pub(crate) fn point_by_words(prompt: &str, objects: &[NamedObject], found: &mut 
             }
             continue;
         }
+        if let [id] = found[nth].mention.ids[..]
+            && label(objects, id).is_some_and(is_easel)
+        {
+            easel = Some(vec![id]);
+        }
         if is_number(said(prompt, &found[nth].mention)) {
             continue;
         }
@@ -48,11 +53,6 @@ pub(crate) fn point_by_words(prompt: &str, objects: &[NamedObject], found: &mut 
                 let hangs = behind(prompt, found[nth].mention.bytes[1]).first().is_some_and(|word| word.text == "on");
                 easel.clone().filter(|_| is_only_canvas(said(prompt, &found[nth].mention)) && !hangs)
             });
-        if let [id] = found[nth].mention.ids[..]
-            && label(objects, id).is_some_and(is_easel)
-        {
-            easel = Some(vec![id]);
-        }
         if let Some(ids) = ids {
             found[nth].mention.ids = ids;
         } else if let Some((id, to)) = bearing(prompt, objects, found, nth) {

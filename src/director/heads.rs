@@ -61,6 +61,6 @@ mod tests {
         assert_eq!(pointed("the table leg", 1), 1);
         assert_eq!(pointed("the door frame", 3), 3);
         assert_eq!(pointed("the drawer unit", 4), 4);
-        assert_eq!(pointed("the pink drawers by the teal cabinet", 5), 4);
+        assert_eq!(pointed("the yellow lamp by the white door", 3), 2);
     }
 }

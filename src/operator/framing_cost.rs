@@ -36,7 +36,8 @@ pub(super) fn framing_cost(world: &World, segment: &MotionSegment, states: &[Cam
         + off_wall_side_cost(world, segment, states)
         + raked_cost(world, segment, states)
         + unsquare_cost(world, segment, states)
-        + wide_cost(world, segment, states);
+        + wide_cost(world, segment, states)
+        + near_room_cost(world, segment, states);
     sized
         + turned
         + soft_cost(world, segment, states)
@@ -128,6 +129,27 @@ fn raked_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) ->
     let (least, most) = RAKED_DEG;
     let share = |off_deg: f64| ((off_deg - least) / (most - least)).clamp(0.0, 1.0);
     RAKED_COST * offs.iter().map(|off_deg| share(*off_deg)).sum::<f64>() / offs.len().max(1) as f64
+}
+
+/// Cost of a pull-out to the room as a whole that ends near what it leaves, and the sizes of that, the larger of its shares of width and
+/// height, at which it begins and is reached.
+const NEAR_ROOM_COST: f64 = 1.4;
+const LEFT_SIZE: (f64, f64) = (0.12, 0.45);
+
+/// Cost of pull-outs that still show the thing that they leave, and hardly the room.
+fn near_room_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    if segment.movement != Move::PullOut || segment.is_join || !world.is_indoor() {
+        return 0.0;
+    }
+    let left = segment.constraints.iter().find_map(|constraint| match &constraint.kind {
+        // Nothing says how large the thing is at the end: the picture is one of the room.
+        ConstraintKind::Height(target, (low, _)) if constraint.scope == Scope::End && *low <= 0.0 => Some(target),
+        _ => None,
+    });
+    let Some(left) = left else { return 0.0 };
+    let size = extent_frac(world, &states[states.len() - 1], &left.corners).max_element();
+    let (least, most) = LEFT_SIZE;
+    NEAR_ROOM_COST * ((size - least) / (most - least)).clamp(0.0, 1.0)
 }
 
 /// Cost of a wide lens near a thing, which bends it, where the words state no lens, and the vertical fields of view at which it begins

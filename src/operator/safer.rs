@@ -114,13 +114,31 @@ fn show_first(step: &mut Step) -> Option<&'static str> {
     is_dropped.then_some("all of the things in one picture")
 }
 
+/// Sees its subjects at any size.
+fn drop_sizes(step: &mut Step) -> Option<&'static str> {
+    let mut is_dropped = false;
+    for framing in [&mut step.start, &mut step.end].into_iter().filter(|framing| !framing.subjects.is_empty()) {
+        is_dropped |= framing.size.take().is_some();
+        is_dropped |= framing.height_frac.take().is_some();
+    }
+    is_dropped.then_some("the size that the words state")
+}
+
 /// Programs for films that go through a wall or stay outside whatever else is given up, each with the lines of what it gives
-/// up: the first of several things, and then a look around the room.
+/// up: the first of several things, then the sizes that the words state, and then a look around the room.
 pub(super) fn indoor_programs(program: &Program, prompt: &str) -> Vec<(Program, Vec<ReportLine>)> {
-    let mut single = program.clone();
-    let lines = give_up(&mut single, prompt, &show_first);
-    let single = (!lines.is_empty()).then_some((single, lines));
-    single.into_iter().chain([look_around(program, prompt)]).collect()
+    let (mut safer, mut lines) = (program.clone(), Vec::new());
+    let mut tries = Vec::new();
+    let ways: [&GiveUp; 2] = [&show_first, &drop_sizes];
+    for way in ways {
+        let given_up = give_up(&mut safer, prompt, way);
+        if !given_up.is_empty() {
+            lines.extend(given_up);
+            tries.push((safer.clone(), lines.clone()));
+        }
+    }
+    tries.push(look_around(program, prompt));
+    tries
 }
 
 fn look_around(program: &Program, prompt: &str) -> (Program, Vec<ReportLine>) {

@@ -118,6 +118,24 @@ pub(crate) fn join_arrivals(linked: &Linked, steps: &mut Vec<Step>) {
     }
 }
 
+/// Drops steps of which the words are but a mark and that only repeat the step before.
+pub(crate) fn drop_wordless(linked: &Linked, steps: &mut Vec<Step>) {
+    let mut nth = 1;
+    while nth < steps.len() {
+        let words = linked.texts_in(steps[nth].words.unwrap_or_default());
+        let is_mark = !words.is_empty() && words.iter().all(|word| !word.chars().any(char::is_alphanumeric));
+        let (before, step) = (&steps[nth - 1], &steps[nth]);
+        if is_mark && step.movement == before.movement && step.via == before.via {
+            let step = steps.remove(nth);
+            if steps[nth - 1].end.subjects.is_empty() {
+                steps[nth - 1].end = step.end;
+            }
+        } else {
+            nth += 1;
+        }
+    }
+}
+
 /// Whether words say that a move goes on to a thing.
 fn goes_on(words: &[&str]) -> bool {
     let from = words.iter().take_while(|word| is_listed(BEFORE, word)).count();

@@ -246,10 +246,12 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     goes_on::go_on(linked, &mut direction.program.steps);
     goes_on::slide_on(&mut direction.program.steps);
     between_them::pass_between_them(linked, &mut direction.program.steps);
+    goes_on::drop_wordless(linked, &mut direction.program.steps);
     goes_on::join_arrivals(linked, &mut direction.program.steps);
     stands::stand_at_opening(linked, &mut direction.program.steps);
     stands::stand_where_wide(linked, &mut direction.program.steps);
     stands::stand_at_side(linked, &mut direction.program.steps);
+    stands::see_from_own_end(linked, &mut direction.program.steps);
     stands::open_on_sides(linked, &mut direction.program.steps);
     postures::stand_low(linked, direction);
     postures::stay_up_and_down(linked, &mut direction.program.steps);

@@ -89,6 +89,29 @@ pub(crate) fn stand_at_side(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Sees a thing from the side of it at which the words stand: `a wide shot of the bed from the foot end` reads `.. from the front of
+/// the bed`.
+pub(crate) fn see_from_own_end(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement == Move::Static) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let end_at = |at: usize| {
+            let ["from", "the", end, "of", thing] = words.get(at..at + 5)? else { return None };
+            let side = SIDES.iter().find(|(names, _)| names.contains(end)).map(|(_, side)| *side)?;
+            Some((side, linked.expanded(&[linked.slot_at(thing)?])))
+        };
+        let Some((side, of)) = (0..words.len()).find_map(end_at) else { continue };
+        let named_first = words.iter().find_map(|word| linked.slot_at(word)).map(|id| linked.expanded(&[id]));
+        if step.end.subjects != of || named_first != Some(of.clone()) || step.end.side.is_some() {
+            continue;
+        }
+        step.end.side = Some(side);
+        if step.start.subjects == of {
+            step.start = Framing::default();
+        }
+        step.via = step.via.take().filter(|via| via.objects != of);
+    }
+}
+
 /// Sides by their words.
 const SIDES: [(&[&str], SubjectSide); 3] = [
     (&["front", "nose", "face"], SubjectSide::FromFront),

@@ -11,7 +11,7 @@ use crate::framing::{Bearing, Fill, Target, bearing_of, distance_for, extent_fra
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing};
 use crate::view::{aimed, fill_in, lerp, moved, stated_fill, with_fov};
-use cinesplat_geometry::Pose;
+use cinesplat_geometry::{Pose, rotation};
 use cinesplat_trajectory::{CameraState, Move, ShotAngle};
 
 /// Largest angle of an orbit between two keyframes, so that the keyframes show its shape.
@@ -275,6 +275,7 @@ fn crane_between(context: &StepContext, start: &Target, end: &Target, upward: bo
     let (mut segments, first) = context.opened_on(start, (0.42, 0.68));
     let view = end_view(context, end, &first);
     let seen = bearing_of(context.world, end.aim, view.pose.position);
+    let seen = Bearing { azimuth_rad: near_side(context, end, &first, seen.azimuth_rad), ..seen };
     let distance = view.pose.position.distance(end.aim);
     let frame = &context.world.frame;
     // The least rise or fall that shows, over the distance to the end's subject.
@@ -303,6 +304,19 @@ fn crane_between(context: &StepContext, start: &Target, end: &Target, upward: bo
     segments.push(require_visible(require_visible(segment, start, Scope::Start), end, Scope::End));
     segments
 }
+
+/// Azimuth from which a crane ends on its second subject: where nothing says a side, about that from which it comes, for nobody asked
+/// for a way around it.
+fn near_side(context: &StepContext, end: &Target, first: &CameraState, azimuth_rad: f64) -> f64 {
+    if stated_azimuths(context.world, end, &context.step.end).is_some() {
+        return azimuth_rad;
+    }
+    let near = bearing_of(context.world, end.aim, first.pose.position).azimuth_rad;
+    near + rotation::short_turn(azimuth_rad - near).clamp(-CRANE_BESIDE_RAD, CRANE_BESIDE_RAD)
+}
+
+/// Farthest that a crane goes around its second subject, radians.
+const CRANE_BESIDE_RAD: f64 = 0.45;
 
 /// Intervals between the keyframes of a crane between two subjects.
 const CRANE_KEYS: u32 = 4;

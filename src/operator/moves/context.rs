@@ -230,8 +230,11 @@ impl<'a> StepContext<'a> {
             let first = target.ids.first().and_then(|id| self.world.subject(*id));
             azimuths_rad.extend(first.and_then(|subject| wall_behind(self.world, subject)));
         }
-        let height = framing.height_frac.or(framing.size.map(|size| size.height_band_frac().0));
-        let close = height.is_some_and(|height| height >= 0.8);
+        let is_close = |framing: &Framing| {
+            let height = framing.height_frac.or(framing.size.map(|size| size.height_band_frac().0));
+            height.is_some_and(|height| height >= 0.8)
+        };
+        let close = is_close(framing) || self.step.movement == Move::PushIn && is_close(&self.step.end);
         // Close views use a long lens, so that the camera does not have to stand inside its subject.
         let fov_deg = match (self.backs_to_room() || self.backs_to_large(), close) {
             (true, _) => BACKING_LENS_DEG,
@@ -333,10 +336,12 @@ impl<'a> StepContext<'a> {
     /// The segment with the constraints of the step's end framing: size, and all subjects in the frame.
     pub(super) fn constrained_at_end(&self, mut segment: MotionSegment) -> MotionSegment {
         let framing = &self.step.end;
-        if let (Some(size), Some(end)) = (framing.size, self.end.as_ref().or(self.start.as_ref())) {
+        let is_wide = matches!(framing.size, Some(ShotSize::Long | ShotSize::ExtremeLong));
+        let left = self.earlier.as_ref().filter(|_| is_wide && self.step.movement == Move::PullOut);
+        if let (Some(size), Some(end)) = (framing.size, self.end.as_ref().or(self.start.as_ref()).or(left)) {
             let (low, high) = height_band_frac(framing, size);
             // A wide view without a subject shows the room: what the step leaves behind may be as small as it likes.
-            let is_of_room = self.end.is_none() && matches!(size, ShotSize::Long | ShotSize::ExtremeLong);
+            let is_of_room = self.end.is_none() && is_wide;
             let band = (if is_of_room { 0.0 } else { low }, high);
             segment = segment.requiring(Scope::End, ConstraintKind::Height(end.clone(), band));
         }

@@ -6,6 +6,7 @@ use super::context::StepContext;
 use crate::framing::{Fill, Target, bearing_of, distance_for, extent_frac, in_frame_frac};
 use crate::program::Amount;
 use crate::view::{distance_along, fill_in, lerp, moved};
+use crate::world::World;
 use cinesplat_trajectory::{CameraState, Move, ShotSize};
 
 /// Least distance at the end of a pull-out over that at its start.
@@ -86,12 +87,26 @@ fn room_ratio(context: &StepContext, target: &Target, first: &CameraState) -> Op
         return None;
     }
     let world = context.world;
-    let behind = world.hit_distance(first.pose.position, -first.pose.forward())?;
+    let back = -first.pose.forward();
+    // Where a room was captured from its open side, there is no wall behind the camera.
+    let behind = world.hit_distance(first.pose.position, back).unwrap_or_else(|| captured_way(world, first, back));
     let free = behind - WALL_RADII * world.camera_radius;
     let distance = first.pose.position.distance(target.aim);
     let ratio = 1.0 + lerp(BACK_SHARE, context.parameters[6]) * free / distance;
     (ratio > size_ratio(context, target, first).unwrap_or(LEAST_RATIO)).then_some(ratio)
 }
+
+/// How far a camera can go in a direction and stays in the captured region.
+fn captured_way(world: &World, first: &CameraState, direction: DVec3) -> f64 {
+    let step = WAY_STEP_FRAC * world.bounds.size();
+    let at = |steps: &u32| first.pose.position + direction * (f64::from(*steps) * step);
+    let inside = (1..WAY_STEPS).take_while(|steps| world.in_capture_region(at(steps))).count();
+    inside as f64 * step
+}
+
+/// Steps in which the way out of the captured region is sought, and their length over the scene size.
+const WAY_STEPS: u32 = 80;
+const WAY_STEP_FRAC: f64 = 0.015;
 
 /// Distance ratio that gives the subject the wanted size at the end; `None` where the camera would move the other way.
 fn size_ratio(context: &StepContext, target: &Target, first: &CameraState) -> Option<f64> {
