@@ -19,6 +19,7 @@ mod places;
 mod proof;
 mod route;
 mod sides;
+mod square;
 mod tables;
 mod viewpoints;
 mod ways;

@@ -78,7 +78,7 @@ pub(crate) fn roll_back(linked: &Linked, steps: &mut Vec<Step>) {
     else {
         return;
     };
-    let amount = steps[first].amount.clone();
+    let amount = steps[first].amount;
     let says = |step: &Step| undoes(&linked.texts_in(step.words.unwrap_or_default()));
     let Some(nth) = steps.iter().position(says) else { return };
     let is_back = nth > first && matches!(steps[nth].movement, Move::RollCw | Move::RollCcw | Move::Static);

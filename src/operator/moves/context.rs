@@ -5,7 +5,7 @@ use glam::DVec3;
 use super::room_view::{room_target, room_view, target_ahead};
 use super::standing_view::{Standing, standing_view};
 use crate::composition::lens_fov_deg;
-use crate::constraint::{ConstraintKind, Scope};
+use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
 use crate::framing::{Target, off_center};
 use crate::motion::{MotionSegment, StepParameters};
 use crate::pacing::factor;
@@ -349,6 +349,14 @@ impl<'a> StepContext<'a> {
             segment = segment.requiring(Scope::End, ConstraintKind::InFrame(framing.subjects.clone(), 0.97));
         }
         segment
+    }
+
+    /// The segment with the pitch of a stated angle required at its start.
+    pub(super) fn constrained_in_pitch(&self, segment: MotionSegment) -> MotionSegment {
+        match self.step.start.angle.or(self.step.end.angle) {
+            Some(angle) => segment.requiring(Scope::Start, ConstraintKind::Pitch(pitch_band_deg(angle))),
+            None => segment,
+        }
     }
 
     /// The segment with the constraints of the step's start framing.

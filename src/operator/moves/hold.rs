@@ -6,7 +6,7 @@ use super::context::{NORMAL_LENS_DEG, StepContext, is_stated, require_visible};
 use super::paths::end_view;
 use super::sway::{num_sways, swayed};
 use crate::composition::front_azimuth;
-use crate::constraint::{ConstraintKind, Scope, pitch_band_deg};
+use crate::constraint::{ConstraintKind, Scope};
 use crate::crowding::stands_free;
 use crate::framing::{MANY, Target, extent_frac, frame_position, frame_ray, off_center};
 use crate::motion::MotionSegment;
@@ -60,7 +60,7 @@ pub(super) fn hold(context: &StepContext) -> Vec<MotionSegment> {
     if context.before.is_none() {
         segment =
             require_visible(context.constrained_at_end(context.constrained_at_start(segment)), &target, Scope::All);
-        segment = constrained_in_pitch(context, segment);
+        segment = context.constrained_in_pitch(segment);
         if (off_center(context.world, &state, target.aim) - THIRD).abs() < 1e-4 {
             segment = segment.requiring(Scope::All, ConstraintKind::OnThird(target.clone()));
         }
@@ -147,14 +147,6 @@ fn looking_room(context: &StepContext, target: &Target, view: &CameraState) -> O
     let front = context.world.frame.direction(front_azimuth(context.world, target.center));
     let across = front.dot(view.pose.right());
     (across.abs() > LEAST_ACROSS).then(|| across.signum())
-}
-
-/// The segment with the pitch of a stated angle required at its start.
-fn constrained_in_pitch(context: &StepContext, segment: MotionSegment) -> MotionSegment {
-    match context.step.start.angle.or(context.step.end.angle) {
-        Some(angle) => segment.requiring(Scope::Start, ConstraintKind::Pitch(pitch_band_deg(angle))),
-        None => segment,
-    }
 }
 
 /// Holds a view with a small, slow, seeded sway of 0.3 % of the distance and 0.35 degrees.

@@ -27,6 +27,25 @@ pub(super) fn truck(context: &StepContext) -> Vec<MotionSegment> {
     })
 }
 
+/// The segment of a slide that begins with one target in the middle and ends with another, or with the ends of the same.
+fn between_ends(context: &StepContext, mut segment: MotionSegment, target: &Target) -> MotionSegment {
+    let first = segment.states[0];
+    let at = |target: &Target, part: SubjectPart| match part {
+        SubjectPart::Left | SubjectPart::Right if is_along(context) => {
+            one_at(context, Target { aim: end_of(target, part, &first), ..target.clone() })
+        }
+        _ => target.clone(),
+    };
+    let opening = at(target, context.step.start.part);
+    segment = segment.requiring(Scope::Start, ConstraintKind::Centered(opening.clone(), 0.22));
+    if let Some(end) = &context.end {
+        let ending = at(end, context.step.end.part);
+        segment = segment.requiring(Scope::End, ConstraintKind::Centered(ending.clone(), 0.2));
+        segment = require_visible(segment, &ending, Scope::End);
+    }
+    require_visible(segment, &opening, Scope::Start)
+}
+
 /// A point near the left or the right end of a target, as a camera sees it; the target's aim for other parts.
 fn end_of(target: &Target, part: SubjectPart, state: &CameraState) -> DVec3 {
     let toward = match part {
@@ -155,19 +174,7 @@ fn slide(
     segment =
         segment.requiring(Scope::All, ConstraintKind::Travel(direction, target.aim, if slight { 0.02 } else { 0.24 }));
     if travels {
-        let at = |target: &Target, part: SubjectPart| match part {
-            SubjectPart::Left | SubjectPart::Right if is_along(context) => {
-                one_at(context, Target { aim: end_of(target, part, &first), ..target.clone() })
-            }
-            _ => target.clone(),
-        };
-        let [opening, ending] = [&context.step.start, &context.step.end].map(|framing| framing.part);
-        segment = segment.requiring(Scope::Start, ConstraintKind::Centered(at(&target, opening), 0.22));
-        if let Some(end) = &context.end {
-            segment = segment.requiring(Scope::End, ConstraintKind::Centered(at(end, ending), 0.2));
-            segment = require_visible(segment, &at(end, ending), Scope::End);
-        }
-        segment = require_visible(segment, &at(&target, opening), Scope::Start);
+        segment = between_ends(context, segment, &target);
     } else if context.before.is_none() {
         let ids: Vec<u32> = target.ids.iter().take(1).copied().collect();
         let (scope, share) = if same { (Scope::All, 0.35) } else { (Scope::All, 0.3) };
