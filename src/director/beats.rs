@@ -4,7 +4,7 @@
 //! about the subject of the part before, and its steps last as long as the timeline says.
 
 use cinesplat_language::{Beat, BeatLength, Linked, Timeline};
-use cinesplat_operator::{Framing, Program, Step};
+use cinesplat_operator::{Framing, Motion, Program, Step};
 use cinesplat_trajectory::{Move, ShotSize};
 
 use crate::compositions::leading_move;
@@ -65,6 +65,10 @@ pub(crate) fn direct_beats(
         land(&mut whole.program.steps, &direction.program.steps);
         carry_on(&mut direction, &mut subjects);
         if is_moment(linked, timeline, beat, &direction.program.steps) && arrive(&mut whole, &direction, beat) {
+            bans.extend(direction.program.forbidden.into_iter().map(|motion| (motion, lengths.len())));
+            if timeline.beats.last() == Some(beat) {
+                lead_between_pictures(&mut whole.program.steps);
+            }
             lengths.push((whole.program.steps.len(), Some(0.0)));
             continue;
         }
@@ -106,6 +110,7 @@ pub(crate) fn direct_beats(
             whole.program.forbid(motion);
         }
     }
+    turn_in_place(&mut whole.program);
     time_beats(linked, timeline, &lengths, &mut whole.program);
     Ok(whole)
 }
@@ -166,6 +171,37 @@ fn arrive(whole: &mut Direction, moment: &Direction, beat: &Beat) -> bool {
         certainty.words = before.words;
     }
     true
+}
+
+/// Turns from one thing to the next where the words rule out that the camera travels.
+fn turn_in_place(program: &mut Program) {
+    if !program.forbidden.contains(&Motion::Travel) {
+        return;
+    }
+    for step in program.steps.iter_mut().filter(|step| step.movement == Move::Follow && step.via.is_none()) {
+        (step.movement, step.either_way) = (Move::PanRight, true);
+    }
+}
+
+/// Makes ways of all rests before a picture at which the film ends: `t=0 the chair, t=2.5 the television, t=5 the vase` says where the
+/// camera looks at each moment. Where a part does more than to show something, its rests are rests.
+fn lead_between_pictures(steps: &mut [Step]) {
+    let Some((last, before)) = steps.split_last_mut() else { return };
+    let plain = |step: &Step| Step { end: step.end.clone(), words: step.words, ..Step::of(Move::Static) };
+    let is_picture = |step: &Step| *step == plain(step) && !step.end.subjects.is_empty();
+    if before.is_empty() || !before.iter().all(is_picture) {
+        return;
+    }
+    let mut next = std::mem::take(&mut last.start);
+    for step in before.iter_mut().rev() {
+        step.movement = Move::Follow;
+        let own = std::mem::replace(&mut step.end, next);
+        next = own.clone();
+        step.start = own;
+    }
+    for step in before.iter_mut().skip(1) {
+        step.start = Framing::default();
+    }
 }
 
 /// Reads one part; pronouns stand for `antecedent`.

@@ -82,8 +82,8 @@ const ALONG_WALL_DEG: (f64, f64) = (42.0, 80.0);
 /// The same of what faces people, from behind.
 const BEHIND_DEG: (f64, f64) = (75.0, 135.0);
 
-/// Cost of pictures that see what stands at a wall from beside it, where no words ask for a side: nobody looks at a bookshelf
-/// along its wall.
+/// Cost of pictures that see what stands at a wall from beside it, or what faces people from behind, where no words ask for a side:
+/// nobody looks at a bookshelf along its wall, or at the back of a chair.
 fn off_wall_side_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
     let goes_round = segment.movement.is_circular() || matches!(segment.movement, Move::FlyThrough | Move::Reveal);
     let is_sided = |constraint: &Constraint| matches!(constraint.kind, ConstraintKind::FromSide(..));

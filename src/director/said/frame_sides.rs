@@ -59,16 +59,26 @@ fn share_frame(linked: &Linked, words: &[&str], step: &mut Step) -> bool {
     true
 }
 
-/// As [`side_of`], where another thing of the words says what the side is one of.
-fn shared_side_of(linked: &Linked, words: &[&str], at: usize) -> Option<(u32, FramePlace)> {
+/// The thing at word `at`, with the side that the words behind it put it on, and where they say that.
+fn placed_side(linked: &Linked, words: &[&str], at: usize) -> Option<(u32, FramePlace, usize)> {
     let id = linked.slot_at(words[at])?;
     let num_between = words[at + 1..].iter().take(5).take_while(|word| is_listed(BETWEEN, word)).count();
     let place = at + 1 + num_between;
-    let side = match *words.get(place)? {
-        "left" => FramePlace::AtLeft,
-        "right" => FramePlace::AtRight,
-        _ => return None,
-    };
+    let next = words.get(place + 1).copied().unwrap_or_default();
+    match (*words.get(place)?, next) {
+        ("upper" | "top", "left") => Some((id, FramePlace::AtUpperLeft, place + 1)),
+        ("upper" | "top", "right") => Some((id, FramePlace::AtUpperRight, place + 1)),
+        ("lower" | "bottom", "left") => Some((id, FramePlace::AtLowerLeft, place + 1)),
+        ("lower" | "bottom", "right") => Some((id, FramePlace::AtLowerRight, place + 1)),
+        ("left", _) => Some((id, FramePlace::AtLeft, place)),
+        ("right", _) => Some((id, FramePlace::AtRight, place)),
+        _ => None,
+    }
+}
+
+/// The thing at word `at`, with its side, where the words of another thing may say what that is a side of.
+fn shared_side_of(linked: &Linked, words: &[&str], at: usize) -> Option<(u32, FramePlace)> {
+    let (id, side, place) = placed_side(linked, words, at)?;
     let is_side =
         words.get(place + 1).is_none_or(|word| is_listed(SIDE, word) || is_listed("and , . ; then with", word));
     is_side.then_some((id, side))
@@ -76,14 +86,8 @@ fn shared_side_of(linked: &Linked, words: &[&str], at: usize) -> Option<(u32, Fr
 
 /// The thing at word `at`, with the side of the frame that the words behind it put it on.
 fn side_of(linked: &Linked, words: &[&str], at: usize) -> Option<(u32, FramePlace)> {
-    let id = linked.slot_at(words[at])?;
-    let num_between = words[at + 1..].iter().take(5).take_while(|word| is_listed(BETWEEN, word)).count();
-    let place = at + 1 + num_between;
-    let side = match *words.get(place)? {
-        "left" => FramePlace::AtLeft,
-        "right" => FramePlace::AtRight,
-        _ => return None,
-    };
+    let (id, side, place) = placed_side(linked, words, at)
+        .filter(|(_, side, _)| matches!(side, FramePlace::AtLeft | FramePlace::AtRight))?;
     let is_of_frame = is_listed(FRAME, words[place - 1])
         || words.get(place + 1).is_some_and(|word| is_listed(SIDE, word))
             && words[place..].iter().take(5).any(|word| is_listed(FRAME, word));
@@ -98,7 +102,6 @@ fn opposite(side: FramePlace) -> FramePlace {
 mod tests {
     use super::super::fixture::{about, linked};
     use super::*;
-    use cinesplat_trajectory::Move;
 
     fn placed(text: &str) -> (Option<FramePlace>, Vec<u32>) {
         let mut step = about(Move::PushIn, &[5], [0, text.len()]);
@@ -120,5 +123,18 @@ mod tests {
         let right = Some(FramePlace::AtRight);
         assert_eq!(placed("push in on <obj-0> frame right , <obj-1> in view"), (right, vec![]));
         assert_eq!(placed("push in on <obj-0> , past <obj-1> to the right"), (right, vec![]));
+    }
+
+    #[test]
+    fn two_things_share_the_frame() {
+        let shared = |text: &str| {
+            let mut step = about(Move::PullOut, &[7], [0, text.len()]);
+            leave_sides_to_owners(&linked(text), std::slice::from_mut(&mut step));
+            (step.end.subjects, step.end.place, step.keep)
+        };
+        let both = (vec![5], Some(FramePlace::AtLeft), vec![7]);
+        assert_eq!(shared("<obj-0> in the left half of the picture and <obj-1> in the right half , pull back"), both);
+        assert_eq!(shared("<obj-0> on the left and <obj-1> on the right of the frame , pull back"), both);
+        assert_eq!(shared("pull back from <obj-0> on the left past <obj-1> on the right").1, None);
     }
 }

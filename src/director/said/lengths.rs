@@ -96,3 +96,23 @@ pub(crate) fn take_film_length(linked: &Linked, program: &mut Program) {
         program.duration_secs = Some(secs);
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use cinesplat_operator::Step;
+
+    use super::*;
+
+    #[test]
+    fn a_step_of_several_does_not_last_as_long_as_the_film() {
+        let step = |secs: f64| Step { duration_secs: Some(secs), ..Step::of(Move::Static) };
+        let shared = |steps: Vec<Step>| {
+            let mut program = Program { steps, duration_secs: Some(15.0), ..Program::default() };
+            share_film_length(&mut program);
+            program.steps.iter().map(|step| step.duration_secs).collect::<Vec<_>>()
+        };
+        assert_eq!(shared(vec![Step::of(Move::FlyThrough), step(15.0)]), [None, None]);
+        assert_eq!(shared(vec![Step::of(Move::FlyThrough), step(4.0)]), [None, Some(4.0)]);
+        assert_eq!(shared(vec![step(15.0)]), [Some(15.0)]);
+    }
+}

@@ -231,4 +231,19 @@ mod tests {
         reveal_by_leaving(&linked(text), &mut steps);
         assert_eq!((steps[1].movement, &steps[1].end.subjects[..]), (Move::PullOut, &[7, 5][..]));
     }
+
+    #[test]
+    fn a_horizon_is_rolled_back_by_as_much() {
+        let text = "roll left <qty-0> on <obj-0> , undo it , and pull back";
+        let roll = Step { amount: Some(Amount::Degrees(15.0)), ..about(Move::RollCcw, &[5], [0, 27]) };
+        let back = |second: Step| {
+            let mut steps = vec![roll.clone(), second];
+            roll_back(&linked(text), &mut steps);
+            (steps.len(), steps[1].movement, steps[1].amount)
+        };
+        let undone = Some(Amount::Degrees(15.0));
+        assert_eq!(back(about(Move::RollCcw, &[5], [28, 39])), (2, Move::RollCw, undone));
+        assert_eq!(back(about(Move::PullOut, &[5], [28, text.len()])), (3, Move::RollCw, undone));
+        assert_eq!(back(about(Move::PullOut, &[5], [42, text.len()])).0, 2);
+    }
 }

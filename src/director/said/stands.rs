@@ -167,3 +167,35 @@ fn side_of(linked: &Linked, words: &[&str]) -> Option<(SubjectSide, u32, usize)>
     });
     said.filter(|(_, _, at)| words[..*at].iter().all(|word| BEFORE.contains(word))).or(from)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::{about, linked};
+    use super::*;
+
+    #[test]
+    fn a_wide_shot_of_the_room_from_a_door_stands_there() {
+        let first = |text: &str| {
+            let mut step = about(Move::PushIn, &[], [0, text.len()]);
+            step.start.subjects = vec![5];
+            stand_where_wide(&linked(text), std::slice::from_mut(&mut step));
+            step
+        };
+        for text in ["begin with a wide shot of the bedroom from <obj-0>", "establishing from the <obj-0>"] {
+            let step = first(text);
+            assert_eq!(step.via, Some(Via { how: Pass::From, objects: vec![5] }), "{text}");
+            assert_eq!((step.movement, &step.end.subjects[..]), (Move::Static, &[][..]), "{text}");
+        }
+        assert_eq!(first("a wide shot , then go from <obj-0> to the window").via, None);
+        assert_eq!(first("pull back from <obj-0> to a wide shot").via, None);
+    }
+
+    #[test]
+    fn an_end_of_a_thing_is_the_side_from_which_it_is_seen() {
+        let text = "wide shot of <obj-0> from the front of <obj-0>";
+        let mut step = about(Move::Static, &[5], [0, text.len()]);
+        step.via = Some(Via { how: Pass::From, objects: vec![5] });
+        see_from_own_end(&linked(text), std::slice::from_mut(&mut step));
+        assert_eq!((step.end.side, step.via), (Some(SubjectSide::FromFront), None));
+    }
+}
