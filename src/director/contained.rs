@@ -3,7 +3,7 @@
 
 use std::collections::BTreeSet;
 
-use cinesplat_language::{NamedObject, Word, is_listed, stem, tokenize};
+use cinesplat_language::{NamedObject, Relation, Things, Word, is_listed, stem, tokenize};
 
 use crate::explained::{content, head, is_number, label, said};
 use crate::names::FoundMention;
@@ -47,6 +47,7 @@ pub(crate) fn point_by_words(prompt: &str, objects: &[NamedObject], found: &mut 
         }
         let ids = held(prompt, objects, found, nth)
             .or_else(|| of_seat(prompt, objects, found, nth))
+            .or_else(|| of_cupboard(prompt, objects, found, nth))
             .or_else(|| on_easel(prompt, objects, found, nth).inspect(|ids| easel = Some(ids.clone())))
             .or_else(|| canvases(prompt, objects, found, nth))
             .or_else(|| {
@@ -103,6 +104,23 @@ fn of_seat(prompt: &str, objects: &[NamedObject], found: &[FoundMention], nth: u
     }
     let seat = found[..nth].iter().rev().find(|before| before.mention.ids.iter().any(|id| has(id, SEATS)))?;
     Some(seat.mention.ids.clone())
+}
+
+/// The wardrobe named last that has doors, for `the doors` in a room with one door.
+fn of_cupboard(prompt: &str, objects: &[NamedObject], found: &[FoundMention], nth: usize) -> Option<Vec<u32>> {
+    let mention = &found[nth].mention;
+    let words = tokenize(said(prompt, mention));
+    let is_door = |id: &u32| label(objects, *id).and_then(head).as_deref() == Some("door");
+    let is_plural = matches!(&words[..], [the, doors] if the.text == "the" && doors.text == "doors");
+    if !is_plural || !matches!(&mention.ids[..], [id] if is_door(id)) {
+        return None;
+    }
+    let has_doors = |id: &u32| {
+        let has = |label: &str| Things::embedded().is_related(label, "door", &[Relation::Part]);
+        label(objects, *id).is_some_and(has) && !is_door(id)
+    };
+    let before = found[..nth].iter().rev().find(|before| before.mention.ids.len() == 1)?;
+    before.mention.ids.iter().all(has_doors).then(|| before.mention.ids.clone())
 }
 
 /// The easel of `the painting on the easel`.
@@ -226,6 +244,8 @@ mod tests {
             "bench",
             "easel",
             "picture 1",
+            "wardrobe",
+            "pink door",
         ]);
         let mention = |(words, id): &(&str, u32)| {
             let start = prompt.find(words).unwrap();
@@ -287,5 +307,18 @@ mod tests {
         assert_eq!(found, [7]);
         found = pointed("pan to the painting over the easel", &[("the painting", 8)]);
         assert_eq!(found, [8]);
+    }
+
+    #[test]
+    fn the_doors_behind_a_wardrobe_are_its_own() {
+        assert_eq!(
+            pointed("creep toward the wardrobe, stop before the doors", &[("wardrobe", 9), ("the doors", 10)]),
+            [9, 9]
+        );
+        assert_eq!(
+            pointed("creep toward the wardrobe, stop before the door", &[("wardrobe", 9), ("the door", 10)]),
+            [9, 10]
+        );
+        assert_eq!(pointed("creep toward the bed, stop before the doors", &[("bed", 5), ("the doors", 10)]), [5, 10]);
     }
 }

@@ -11,6 +11,8 @@ use crate::said::directs;
 const MARKS: &str = ". ! ? :";
 /// Fewest words of a story.
 const FEWEST_WORDS: usize = 7;
+/// Time that belongs to a story.
+const LEAST_STORY_SECS: f64 = 120.0;
 /// Most words of a title.
 const MOST_TITLE_WORDS: usize = 12;
 /// Words of what is told.
@@ -18,7 +20,7 @@ const TELLS: &str = "was were had used always fought loved bought found lost got
     thinks says said means believe feel feels called named";
 /// Whom a story is about.
 const PERSONS: &str = "my our we i she he they her his their nan gran grandma mum mom dad mother father wife husband daughter son \
-    brother sister aunt uncle friend hand who whom someone everyone client clients they";
+    brother sister aunt uncle friend hand who whom someone everyone client clients they guest guests visitors family kids children people";
 /// Words by which a sentence asks for something, or says what is seen when.
 const ASKS: &str = "show shows see sees look looking watch could can would should must please want wants need needs give let first \
     then last end ends ending start starts begin begins finish until till wish take takes notice notices make makes frame shot \
@@ -107,7 +109,9 @@ fn texts<'a>(sentence: &[(&'a str, [usize; 2])]) -> Vec<&'a str> {
 
 /// Whether some words are quantities.
 fn has_numbers(linked: &Linked, words: &[&str]) -> bool {
-    words.iter().any(|word| linked.is_quantity(word))
+    // `The guests are ten minutes away`: no film takes minutes.
+    let is_story = |word: &str| linked.secs_at(word).is_some_and(|secs| secs >= LEAST_STORY_SECS);
+    words.iter().any(|word| linked.is_quantity(word) && !is_story(word))
 }
 
 /// Whether words ask for something that a camera does.

@@ -70,7 +70,11 @@ pub(super) fn wall_behind(world: &World, subject: &Subject) -> Option<f64> {
         if is_flat || is_long {
             oblong_front(world, subject, short.try_normalize()?)
         } else {
-            wall_side(world, subject).or_else(|| wall_before(world, subject))
+            let bearer = || subject.bearer.and_then(|id| world.subject(id));
+            // What stands on a sideboard is before the wall of that.
+            let borne =
+                || bearer().filter(|bearer| bearer.bearer.is_none()).and_then(|bearer| wall_behind(world, bearer));
+            wall_side(world, subject).or_else(borne).or_else(|| wall_before(world, subject))
         }
     })
 }

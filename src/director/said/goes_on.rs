@@ -118,14 +118,16 @@ pub(crate) fn join_arrivals(linked: &Linked, steps: &mut Vec<Step>) {
     }
 }
 
-/// Drops steps of which the words are but a mark and that only repeat the step before.
+/// Drops steps of which the words are but a mark and that only repeat the step before, or rest.
 pub(crate) fn drop_wordless(linked: &Linked, steps: &mut Vec<Step>) {
     let mut nth = 1;
     while nth < steps.len() {
         let words = linked.texts_in(steps[nth].words.unwrap_or_default());
         let is_mark = !words.is_empty() && words.iter().all(|word| !word.chars().any(char::is_alphanumeric));
         let (before, step) = (&steps[nth - 1], &steps[nth]);
-        if is_mark && step.movement == before.movement && step.via == before.via {
+        let is_same = step.movement == before.movement && step.via == before.via;
+        let is_rest = *step == Step { words: step.words, ..Step::of(Move::Static) };
+        if is_mark && (is_same || is_rest) {
             let step = steps.remove(nth);
             if steps[nth - 1].end.subjects.is_empty() {
                 steps[nth - 1].end = step.end;

@@ -229,6 +229,7 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     specified::keep_level(linked, &mut direction.program);
     travels::travel_instead_of_turning(linked, &mut direction.program);
     travels::go_along(linked, &mut direction.program.steps);
+    travels::slide_along_to(linked, &mut direction.program.steps);
     set_off::begin_as_set_off(linked, &mut direction.program.steps);
     nearings::come_nearer_round(linked, direction);
     fixed::stay_put(linked, &mut direction.program);

@@ -1,7 +1,7 @@
 //! What the words say of the first picture.
 
 use cinesplat_language::{LanguageError, Linked, Senses};
-use cinesplat_operator::{Framing, Look, Step, SubjectPart};
+use cinesplat_operator::{Framing, Look, Pass, Step, SubjectPart};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
 use super::directions::is_form;
@@ -204,10 +204,28 @@ pub(crate) fn slide_square(linked: &Linked, steps: &mut [Step]) {
         let [from, to] = step.words.unwrap_or_default();
         let behind = linked.words_in([to, usize::MAX]).map(|(word, _)| word).take(8);
         let words: Vec<&str> = linked.texts_in([from, to]).into_iter().chain(behind).collect();
-        if step.look == Some(Look::Ahead) && locks_ahead(&words) {
+        let faces = step.look.as_ref().is_some_and(|look| faces_along(linked, &words, look)) && leads(step);
+        if step.look == Some(Look::Ahead) && locks_ahead(&words) || faces {
             step.look = None;
         }
     }
+}
+
+/// Whether a slide leads along something, or from one thing to another.
+fn leads(step: &Step) -> bool {
+    let is_along = step.via.as_ref().is_some_and(|via| via.how == Pass::Along);
+    is_along || !step.start.subjects.is_empty() && !step.end.subjects.is_empty()
+}
+
+/// Whether words face what a slide looks at: `along the counter, from the fridge to the stove, facing the units`.
+fn faces_along(linked: &Linked, words: &[&str], look: &Look) -> bool {
+    let Look::At(ids) = look else { return false };
+    let looked = linked.expanded(ids);
+    let faced = |at: usize| {
+        let thing = words[at + 1..].iter().take(2).find_map(|word| linked.slot_at(word))?;
+        Some(linked.expanded(&[thing]))
+    };
+    (0..words.len()).any(|at| words[at] == "facing" && faced(at).is_some_and(|ids| ids == looked))
 }
 
 /// Whether words lock the lens straight ahead.
@@ -398,6 +416,9 @@ pub(crate) fn temper_closeness(linked: &Linked, senses: &[Senses], steps: &mut [
 
 #[cfg(test)]
 mod tests {
+    use cinesplat_operator::Via;
+
+    use super::super::fixture::{about, linked};
     use super::*;
 
     #[test]
@@ -408,5 +429,18 @@ mod tests {
         assert!(locks("truck left with the lens fixed forward"));
         assert!(!locks("slide right , camera looking ahead to where we are going"));
         assert!(!locks("truck left , the camera moves straight on"));
+    }
+
+    #[test]
+    fn a_slide_that_faces_the_units_does_not_turn_to_them() {
+        let looks = |text: &str| {
+            let via = Some(Via { how: Pass::Along, objects: vec![5] });
+            let look = Some(Look::At(vec![7]));
+            let mut step = Step { via, look, ..about(Move::TruckRight, &[9], [0, text.len()]) };
+            slide_square(&linked(text), std::slice::from_mut(&mut step));
+            step.look.is_some()
+        };
+        assert!(!looks("track right along <obj-0> , facing <obj-1>"));
+        assert!(looks("track right along <obj-0> , always looking at <obj-1>"));
     }
 }

@@ -64,6 +64,32 @@ pub(crate) fn go_along(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Slides along what the words go along, past what they pass, to the thing behind `to`: `slide right along the sideboard past the books to
+/// the candle`.
+pub(crate) fn slide_along_to(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| matches!(step.movement, Move::TruckLeft | Move::TruckRight)) {
+        // Where a step ends too soon, the words behind it say where to.
+        let from = step.words.map_or(0, |[from, _]| from);
+        let words = linked.texts_in([from, usize::MAX]);
+        let thing = |at: usize| words.get(at).and_then(|word| linked.slot_at(word)).map(|id| linked.expanded(&[id]));
+        let said = (0..words.len()).take_while(|at| !is_listed(". ; ! ? then", words[*at])).find_map(|at| {
+            let along = thing(at + 1).filter(|_| words[at] == "along")?;
+            let past = thing(at + 3).filter(|_| words[at + 2] == "past");
+            let to = at + if past.is_some() { 4 } else { 2 };
+            let end = thing(to + 1).filter(|_| words[to] == "to")?;
+            Some((along, end))
+        });
+        let Some((along, end)) = said.filter(|(along, end)| along != end) else { continue };
+        if step.end.subjects != end {
+            step.end = Framing { subjects: end, ..Framing::default() };
+        }
+        if step.start.subjects == along {
+            step.start = Framing::default();
+        }
+        step.via = Some(Via { how: Pass::Along, objects: along });
+    }
+}
+
 /// The travel to the side to which a turn turns.
 fn travel_of(turn: Move) -> Option<Move> {
     match turn {
@@ -109,7 +135,7 @@ fn asks_for_turn(words: &[&str]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture::linked;
+    use super::super::fixture::{about, linked};
     use super::*;
     use cinesplat_language::Quantity;
 
@@ -158,5 +184,15 @@ mod tests {
         assert_eq!(moved("pan left , no tilting", Move::PanLeft, &[Motion::Tilt]), Move::PanLeft);
         assert_eq!(moved("turn to the left , no panning", Move::PanLeft, &[Motion::Pan]), Move::PanLeft);
         assert_eq!(moved("to <obj-0> , no panning", Move::PanLeft, &[Motion::Pan]), Move::PanLeft);
+    }
+
+    #[test]
+    fn a_slide_along_a_thing_leads_to_what_stands_behind_to() {
+        let text = "slide right along <obj-0> past <obj-0> to <obj-1> , then pull back";
+        let mut step = about(Move::TruckRight, &[5], [0, 38]);
+        step.start.subjects = vec![5];
+        slide_along_to(&linked(text), std::slice::from_mut(&mut step));
+        assert_eq!((&step.start.subjects[..], &step.end.subjects[..]), (&[][..], &[7][..]));
+        assert_eq!(step.via, Some(Via { how: Pass::Along, objects: vec![5] }));
     }
 }

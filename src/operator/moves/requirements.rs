@@ -49,10 +49,16 @@ pub(super) fn require(context: &StepContext, segments: &mut [MotionSegment]) {
         hide(own, &step.end, Scope::End);
         leave_frame(context, own);
         add(own, Scope::End, closed_in_on(context));
-        add(own, Scope::All, passages(step.via.as_ref().filter(|_| !skims(context))));
+        // To a thing on a sideboard the camera goes along a part of that.
+        let is_part = |via: &Via| via.how == Pass::Along && !step.end.subjects.is_empty() && slides(step.movement);
+        add(own, Scope::All, passages(step.via.as_ref().filter(|via| !skims(context) && !is_part(via))));
         add(own, Scope::Any, passed_in_turn(step));
         require_shoulder(context, own);
     }
+}
+
+fn slides(movement: Move) -> bool {
+    matches!(movement, Move::TruckLeft | Move::TruckRight)
 }
 
 /// The passages of a step that are measured on its path. `Between` with one object means through it.
