@@ -1,7 +1,8 @@
 //! Programs that give up what leads a camera through matter or out of the room.
 //!
 //! Enters: a program whose films are not safe. Leaves: the same program without the words that say from which side, over
-//! which way or how far around a thing, the fewest given up first, with report lines that say what was given up.
+//! which way, how far around a thing or from how steep an angle, the fewest given up first, with report lines that say what was given
+//! up.
 
 use super::program::{Amount, Program, Step};
 use super::report::clause;
