@@ -2,7 +2,7 @@
 
 use cinesplat_language::{Mention, Word, is_listed, tokenize};
 
-use crate::explained::replace_mentions;
+use crate::explained::{is_linked, replace_mentions};
 use crate::names::FoundMention;
 use crate::placed::{Flank, Places, outermost};
 
@@ -21,11 +21,8 @@ pub(crate) fn point_by_order(prompt: &str, places: Places<'_>, found: &mut Vec<F
         let bytes = [words[at - 1].span[0], words[at + len - 1].span[1]];
         let row = found.iter().rev().find(|found| found.mention.bytes[1] <= bytes[0] && found.mention.ids.len() > 2);
         let Some(row) = row.map(|row| row.mention.ids.clone()) else { continue };
-        let is_named = |word: &&Word| {
-            found.iter().any(|found| (found.mention.bytes[0]..found.mention.bytes[1]).contains(&word.span[0]))
-        };
-        let before = words[..at - 1].iter().rev().take(MOST_BACK).filter(|word| !is_named(word));
-        let side = before.into_iter().find_map(|word| match word.text.as_str() {
+        let mut before = words[..at - 1].iter().rev().take(MOST_BACK).filter(|word| !is_linked(found, word.span));
+        let side = before.find_map(|word| match word.text.as_str() {
             "left" => Some(Flank::Left),
             "right" => Some(Flank::Right),
             _ => None,

@@ -290,13 +290,15 @@ mod tests {
         assert_eq!(corrected("turn to <obj-0> , wait , my mistake , <obj-1> and stop"), right);
     }
 
+    /// A prompt of words, each a byte of it; `<obj-0>` is object 7, `<obj-1>` object 4.
+    fn worded(text: &str) -> Linked {
+        let spans = (0..text.split(' ').count()).map(|at| [at, at]).collect();
+        Linked { tokens_text: text.to_owned(), spans, slots: vec![7, 4], ..Linked::default() }
+    }
+
     #[test]
     fn what_is_denied_before_what_is_meant_is_left_out() {
-        let left = |text: &str| {
-            let spans = (0..text.split(' ').count()).map(|at| [at, at]).collect();
-            let linked = Linked { tokens_text: text.to_owned(), spans, slots: vec![7, 4], ..Linked::default() };
-            linked.without_denied().map(|linked| linked.tokens_text)
-        };
+        let left = |text: &str| worded(text).without_denied().map(|linked| linked.tokens_text);
         assert_eq!(left("not <obj-0> , <obj-1> : push in").as_deref(), Some("<obj-0> : push in"));
         assert_eq!(left("push in but not <obj-0> , <obj-1> : yes"), None);
         assert_eq!(left("not <obj-0> , <obj-1> or the door"), None);
@@ -304,11 +306,7 @@ mod tests {
 
     #[test]
     fn a_way_is_turned_around() {
-        let reversed = |text: &str| {
-            let spans = (0..text.split(' ').count()).map(|at| [at, at]).collect();
-            let linked = Linked { tokens_text: text.to_owned(), spans, slots: vec![7, 4], ..Linked::default() };
-            linked.corrected().map(|linked| (linked.tokens_text, linked.slots))
-        };
+        let reversed = |text: &str| worded(text).corrected().map(|linked| (linked.tokens_text, linked.slots));
         let turned = Some(("turn from <obj-0> to <obj-1> . just turn".to_owned(), vec![4, 7]));
         let said = "turn from <obj-0> to <obj-1> , no sorry , other way round , <obj-1> to <obj-0> . just turn";
         assert_eq!(reversed(said), turned);

@@ -52,10 +52,14 @@ impl Object {
         self.half_extents.length()
     }
 
+    /// Half extents along the axes of the box, world.
+    pub fn half_axes(&self) -> [DVec3; 3] {
+        [DVec3::X, DVec3::Y, DVec3::Z].map(|own| self.rotation * (own * self.half_extents))
+    }
+
     /// Least and largest coordinate of the box along an axis of length 1, scene units.
     pub fn span_along(&self, axis: DVec3) -> [f64; 2] {
-        let axes = [DVec3::X, DVec3::Y, DVec3::Z].map(|own| self.rotation * (own * self.half_extents));
-        let reach: f64 = axes.iter().map(|own| own.dot(axis).abs()).sum();
+        let reach: f64 = self.half_axes().iter().map(|own| own.dot(axis).abs()).sum();
         let middle = self.center.dot(axis);
         [middle - reach, middle + reach]
     }

@@ -85,12 +85,12 @@ pub(super) fn lens_fov_deg(lens: Lens) -> (f64, f64) {
 /// Azimuth, seen from the point, of the front of the subject there: the known one, or else away from the wall behind it, or else
 /// that of the middle of the scene, or of the best viewpoint where the subject itself is in the middle.
 pub(super) fn front_azimuth(world: &World, center: DVec3) -> f64 {
-    if let Some(known) = world.known_front(center).or_else(|| world.facing(center)) {
+    let known = match world.subject_at(center) {
+        Some(subject) => subject.front_rad.or(subject.facing_rad).or_else(|| wall_behind(world, subject)),
+        None => world.front_rad,
+    };
+    if let Some(known) = known {
         return known;
-    }
-    let at_wall = world.subject_at(center).and_then(|subject| wall_behind(world, subject));
-    if let Some(square) = at_wall {
-        return square;
     }
     let level = |to: DVec3| world.frame.horizontal(to - center);
     let to_middle = level(world.bounds.center());

@@ -68,23 +68,31 @@ fn crowded_frac(world: &World, state: &CameraState, subject: &Subject) -> f64 {
     // What a table bears is part of its picture.
     let borne = subject.borne_heights.map_or(0.0, |[surface, highest]| highest - surface);
     let before = near - BEFORE_FRAC * world.bounds.size() - borne;
-    let share = |i: u32, count: u32| (f64::from(i) + 0.5) / f64::from(count);
-    let rays = (0..RAYS.0).flat_map(|column| (0..RAYS.1).map(move |row| (column, row)));
     let (mut framed, mut taken) = (0.0_f64, 0.0);
-    for (column, row) in rays {
-        let at = low + (high - low) * DVec2::new(share(column, RAYS.0), share(row, RAYS.1));
+    for at in places(low, high) {
         if at.abs().max_element() > 0.5 {
             continue;
         }
         let is_over = at.cmpge(box_low).all() && at.cmple(box_high).all();
         let weight = if is_over { 1.0 } else { BESIDE_WEIGHT };
         framed += weight;
-        let ray = frame_ray(world, state, at);
-        let (length, ray) = (ray.length(), state.pose.rotation * ray.normalize());
-        let hit = world.hit_distance(state.pose.position, ray).map(|distance| distance / length);
-        taken += if hit.is_some_and(|depth| depth < before) { weight } else { 0.0 };
+        taken += if depth_at(world, state, at).is_some_and(|depth| depth < before) { weight } else { 0.0 };
     }
     if framed > 0.0 { taken / framed } else { 0.0 }
+}
+
+/// Places of the frame in columns and rows over a part of it, from its lower left to its upper right corner.
+fn places(low: DVec2, high: DVec2) -> impl Iterator<Item = DVec2> {
+    let share = |i: u32, count: u32| (f64::from(i) + 0.5) / f64::from(count);
+    let rays = (0..RAYS.0).flat_map(|column| (0..RAYS.1).map(move |row| (column, row)));
+    rays.map(move |(column, row)| low + (high - low) * DVec2::new(share(column, RAYS.0), share(row, RAYS.1)))
+}
+
+/// Depth of the first matter at a place of the frame.
+fn depth_at(world: &World, state: &CameraState, at: DVec2) -> Option<f64> {
+    let ray = frame_ray(world, state, at);
+    let (length, ray) = (ray.length(), state.pose.rotation * ray.normalize());
+    world.hit_distance(state.pose.position, ray).map(|distance| distance / length)
 }
 
 /// Cost of a slide from one thing to another behind things that take all of the picture on the way, and the share of it that
@@ -93,8 +101,9 @@ const SCREENED_COST: f64 = 1.6;
 const FREE_SHARE: f64 = 0.1;
 /// Depth of what is in the way, over that of what the camera slides along.
 const IN_FRONT: f64 = 0.6;
-/// The part of the picture, from its middle, in which it counts: to the sides and above; below it is what the things stand on.
-const SCREEN: [(f64, f64); 2] = [(-0.4, 0.4), (-0.1, 0.35)];
+/// Corners of the part of the picture in which it counts, from its middle: to the sides and above; below it is what the things stand
+/// on.
+const SCREEN: [DVec2; 2] = [DVec2::new(-0.4, -0.1), DVec2::new(0.4, 0.35)];
 
 /// Cost of what stands between the camera and the way along which it slides from one thing to another.
 pub(super) fn screened_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
@@ -114,19 +123,9 @@ pub(super) fn screened_cost(world: &World, segment: &MotionSegment, states: &[Ca
         let state = &states[nth];
         let way = from.lerp(to, nth as f64 / last as f64);
         let most = IN_FRONT * (way - state.pose.position).dot(state.pose.forward());
-        let share = |i: u32, count: u32| (f64::from(i) + 0.5) / f64::from(count);
-        let [across, upright] = SCREEN;
-        let rays = (0..RAYS.0).flat_map(|column| (0..RAYS.1).map(move |row| (column, row)));
-        let is_hit = |(column, row): &(u32, u32)| {
-            let at = DVec2::new(
-                across.0 + (across.1 - across.0) * share(*column, RAYS.0),
-                upright.0 + (upright.1 - upright.0) * share(*row, RAYS.1),
-            );
-            let ray = frame_ray(world, state, at);
-            let (length, ray) = (ray.length(), state.pose.rotation * ray.normalize());
-            world.hit_distance(state.pose.position, ray).is_some_and(|distance| distance / length < most)
-        };
-        rays.filter(is_hit).count() as f64 / f64::from(RAYS.0 * RAYS.1)
+        let is_hit = |at: &DVec2| depth_at(world, state, *at).is_some_and(|depth| depth < most);
+        let [low, high] = SCREEN;
+        places(low, high).filter(is_hit).count() as f64 / f64::from(RAYS.0 * RAYS.1)
     };
     let moments: Vec<usize> = (1..last).step_by(2).collect();
     let mean = moments.iter().map(|nth| taken(*nth)).sum::<f64>() / moments.len().max(1) as f64;

@@ -7,6 +7,7 @@ use super::constraint::{Constraint, ConstraintKind, Scope};
 use super::framing::{extent_frac, frame_position, in_frame_frac, off_center};
 use super::motion::MotionSegment;
 use super::program::SubjectSide;
+use super::view::ramp;
 use super::wall_side::{wall_behind, wall_side};
 use super::world::{Subject, World};
 use cinesplat_geometry::rotation;
@@ -71,8 +72,7 @@ fn slide_turn_cost(world: &World, segment: &MotionSegment, states: &[CameraState
     }
     let yaw = |state: &CameraState| world.frame.angles(state.pose.rotation).yaw_rad;
     let turn_deg = rotation::short_turn(yaw(last) - yaw(first)).abs().to_degrees();
-    let (least, most) = SLIDE_TURN_DEG;
-    SLIDE_TURN_COST * ((turn_deg - least) / (most - least)).clamp(0.0, 1.0)
+    SLIDE_TURN_COST * ramp(SLIDE_TURN_DEG, turn_deg)
 }
 
 /// Cost of seeing what stands at a wall along the wall, and the angles from its front at which it begins and is reached,
@@ -94,11 +94,11 @@ fn off_wall_side_cost(world: &World, segment: &MotionSegment, states: &[CameraSt
         let Some(subject) = constraint.shown(world) else { return 0.0 };
         let faced = || subject.facing_rad.filter(|_| world.is_indoor()).map(|facing_rad| (facing_rad, BEHIND_DEG));
         let side = wall_side(world, subject).map(|front_rad| (front_rad, ALONG_WALL_DEG)).or_else(faced);
-        let Some((front_rad, (least, most))) = side else { return 0.0 };
+        let Some((front_rad, range_deg)) = side else { return 0.0 };
         let beside = |state: &CameraState| {
             let azimuth = world.frame.azimuth(state.pose.position - subject.center);
             let off_deg = rotation::short_turn(azimuth - front_rad).abs().to_degrees();
-            ((off_deg - least) / (most - least)).clamp(0.0, 1.0)
+            ramp(range_deg, off_deg)
         };
         let ends = [states[0], states[states.len() - 1]];
         constraint.scope.of(&ends).iter().map(beside).fold(0.0, f64::max)
@@ -126,9 +126,7 @@ fn raked_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) ->
         Some(rotation::short_turn(ahead - square_rad).abs().to_degrees())
     };
     let offs: Vec<f64> = segment.constraints.iter().filter_map(off_deg).collect();
-    let (least, most) = RAKED_DEG;
-    let share = |off_deg: f64| ((off_deg - least) / (most - least)).clamp(0.0, 1.0);
-    RAKED_COST * offs.iter().map(|off_deg| share(*off_deg)).sum::<f64>() / offs.len().max(1) as f64
+    RAKED_COST * offs.iter().map(|off_deg| ramp(RAKED_DEG, *off_deg)).sum::<f64>() / offs.len().max(1) as f64
 }
 
 /// Cost of a pull-out to the room as a whole that ends near what it leaves, and the sizes of that, the larger of its shares of width and
@@ -148,8 +146,7 @@ fn near_room_cost(world: &World, segment: &MotionSegment, states: &[CameraState]
     });
     let Some(left) = left else { return 0.0 };
     let size = extent_frac(world, &states[states.len() - 1], &left.corners).max_element();
-    let (least, most) = LEFT_SIZE;
-    NEAR_ROOM_COST * ((size - least) / (most - least)).clamp(0.0, 1.0)
+    NEAR_ROOM_COST * ramp(LEFT_SIZE, size)
 }
 
 /// Cost of a wide lens near a thing, which bends it, where the words state no lens, and the vertical fields of view at which it begins
@@ -169,8 +166,7 @@ fn wide_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> 
         return 0.0;
     }
     let widest = [states[0], states[states.len() - 1]].map(|state| state.fov_y_rad.to_degrees());
-    let (least, most) = WIDE_DEG;
-    WIDE_COST * ((widest[0].max(widest[1]) - least) / (most - least)).clamp(0.0, 1.0)
+    WIDE_COST * ramp(WIDE_DEG, widest[0].max(widest[1]))
 }
 
 /// Cost of a view from the front, where the words ask for that, that is not square to it, and the angles at which it begins and is
@@ -187,11 +183,10 @@ fn unsquare_cost(world: &World, segment: &MotionSegment, states: &[CameraState])
     let off = |constraint: &Constraint| {
         let ConstraintKind::FromSide(target, side @ SubjectSide::FromFront) = &constraint.kind else { return 0.0 };
         let Some(square_rad) = square_azimuths(world, target, *side).first().copied() else { return 0.0 };
-        let (least, most) = UNSQUARE_DEG;
         let share = |state: &CameraState| {
             let azimuth = world.frame.azimuth(state.pose.position - target.center);
             let off_deg = rotation::short_turn(azimuth - square_rad).abs().to_degrees();
-            ((off_deg - least) / (most - least)).clamp(0.0, 1.0)
+            ramp(UNSQUARE_DEG, off_deg)
         };
         constraint.scope.of(&ends).iter().map(share).fold(0.0, f64::max)
     };
@@ -269,8 +264,7 @@ fn soft_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> 
             let depth = state.pose.position.distance(subject.center).max(1e-9);
             subject.splat_size / (2.0 * depth * (state.fov_y_rad / 2.0).tan())
         };
-        open.map(|(_, state)| ((frac(state) - SOFT_FRAC.0) / (SOFT_FRAC.1 - SOFT_FRAC.0)).clamp(0.0, 1.0))
-            .fold(0.0, f64::max)
+        open.map(|(_, state)| ramp(SOFT_FRAC, frac(state))).fold(0.0, f64::max)
     };
     SOFT_COST * segment.constraints.iter().map(soft).fold(0.0, f64::max)
 }

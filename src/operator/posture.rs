@@ -6,6 +6,7 @@ use super::constraint::{Constraint, ConstraintKind};
 use super::framing::Target;
 use super::motion::{Angle, MotionSegment};
 use super::program::{Framing, Pass};
+use super::view::ramp;
 use super::world::World;
 use cinesplat_trajectory::{CameraState, Move};
 
@@ -45,9 +46,8 @@ pub(super) fn posture_cost(world: &World, segment: &MotionSegment, states: &[Cam
     let top = shown().map(|subject| world.height_above_floor(subject.center)).fold(world.eye_height(), f64::max);
     let ends = [&states[0], &states[states.len() / 2], &states[states.len() - 1]];
     let worst = |of: &dyn Fn(&CameraState) -> f64| ends.iter().map(|state| of(state)).fold(0.0, f64::max);
-    let share = |(least, most): (f64, f64), value: f64| ((value - least) / (most - least)).clamp(0.0, 1.0);
-    let high = worst(&|state| share(HIGH, world.height_above_floor(state.pose.position) / top));
-    let lean = worst(&|state| share(LEAN, lean(world, state)));
+    let high = worst(&|state| ramp(HIGH, world.height_above_floor(state.pose.position) / top));
+    let lean = worst(&|state| ramp(LEAN, lean(world, state)));
     // A view of a room as a whole looks down a little: its floor is worth more than its ceiling. A pan has one pitch for
     // things of different heights.
     let pans = matches!(segment.movement, Move::PanLeft | Move::PanRight | Move::WhipPan);

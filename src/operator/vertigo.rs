@@ -3,6 +3,7 @@
 use glam::DVec2;
 
 use super::motion::MotionSegment;
+use super::view::ramp;
 use super::world::World;
 use cinesplat_geometry::{Camera, Intrinsics};
 use cinesplat_trajectory::{CameraState, Move};
@@ -30,9 +31,8 @@ pub(super) fn vertigo_cost(world: &World, segment: &MotionSegment, states: &[Cam
     let (first, last) = (&states[0], &states[states.len() - 1]);
     let (near, far) = if distance(first) < distance(last) { (first, last) } else { (last, first) };
     let reach = subject.reach(near.pose.forward());
-    let (least, most) = SWELLING;
     let growth = swelling(distance(near), reach) / swelling(distance(far), reach);
-    let swollen = ((growth - least) / (most - least)).clamp(0.0, 1.0);
+    let swollen = ramp(SWELLING, growth);
     SWOLLEN_COST * swollen + FLAT_COST * flat_frac(world, near, distance(near))
 }
 

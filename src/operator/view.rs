@@ -118,6 +118,11 @@ pub(super) fn lerp(range: (f64, f64), t: f64) -> f64 {
     range.0 + (range.1 - range.0) * t
 }
 
+/// How far a value is on the way from the first end of a range to the second, 0..=1: the inverse of [`lerp`], clamped.
+pub(super) fn ramp((from, to): (f64, f64), value: f64) -> f64 {
+    ((value - from) / (to - from)).clamp(0.0, 1.0)
+}
+
 /// A view of `target` as `framing` requires it. Parameters 0 to 4 choose azimuth, elevation, size, lens, and the
 /// preferred azimuth.
 pub(super) fn opening_view(

@@ -31,12 +31,7 @@ fn found(world: &World, subject: &Subject) -> Option<f64> {
     if !world.is_indoor() || is_narrow || subject.radius < LEAST_SIZE * eye || foot > LEAST_SIZE * eye {
         return None;
     }
-    let half_height = subject.reach(up);
-    let free = |way: DVec3| {
-        let from = |level: f64| subject.center + up * (level * half_height) + way * (subject.reach(way) + 0.02 * eye);
-        let distance = |level: f64| world.hit_distance(from(level), way).unwrap_or(f64::INFINITY);
-        LEVELS.map(distance)
-    };
+    let free = |way: DVec3| free_distances(world, subject, beside(world, subject, way), way);
     let is_wall = |way: DVec3| free(way).iter().all(|distance| *distance < AT_WALL * eye);
     let is_open = |way: DVec3| free(way).iter().any(|distance| *distance > FREE * eye);
     let ways = [short, -short, long, -long].map(DVec3::normalize_or_zero);
@@ -44,6 +39,24 @@ fn found(world: &World, subject: &Subject) -> Option<f64> {
     // In a corner the long side is the front.
     let back = *walls.first()?;
     (!walls.contains(&-back) && is_open(-back)).then(|| world.frame.azimuth(-back))
+}
+
+/// A point just beside a thing, at the height of its middle.
+fn beside(world: &World, subject: &Subject, way: DVec3) -> DVec3 {
+    subject.center + way * (subject.reach(way) + 0.02 * world.eye_height())
+}
+
+/// Distances that are free from a point beside a thing, at three of the thing's heights.
+fn free_distances(world: &World, subject: &Subject, beside: DVec3, way: DVec3) -> [f64; 3] {
+    let half_height = subject.reach(world.frame.up);
+    let from = |level: f64| beside + world.frame.up * (level * half_height);
+    LEVELS.map(|level| world.hit_distance(from(level), way).unwrap_or(f64::INFINITY))
+}
+
+/// What is free at two heights of three.
+fn middle(mut distances: [f64; 3]) -> f64 {
+    distances.sort_by(f64::total_cmp);
+    distances[1]
 }
 
 /// Distance from the near side of a thing to the wall behind it, over the height of a standing person's eyes: a desk is as deep.
@@ -82,15 +95,10 @@ pub(super) fn wall_behind(world: &World, subject: &Subject) -> Option<f64> {
 /// The open one of the two broad sides of a thing that has a wall, or nothing of the room, at the other one.
 fn oblong_front(world: &World, subject: &Subject, short: DVec3) -> Option<f64> {
     let eye = world.eye_height();
-    let half_height = subject.reach(world.frame.up);
     let free = |way: DVec3| {
         let at = |beyond: f64| subject.center + way * (subject.reach(way) + beyond * eye);
         let inside = BEYOND.into_iter().map(at).find(|point| world.in_capture_region(*point));
-        let Some(beside) = inside else { return 0.0 };
-        let from = |level: f64| beside + world.frame.up * (level * half_height);
-        let mut at = LEVELS.map(|level| world.hit_distance(from(level), way).unwrap_or(f64::INFINITY));
-        at.sort_by(f64::total_cmp);
-        at[1]
+        inside.map_or(0.0, |beside| middle(free_distances(world, subject, beside, way)))
     };
     let [ahead, back] = [free(short), free(-short)];
     let (way, far, near) = if ahead > back { (short, ahead, back) } else { (-short, back, ahead) };
@@ -117,14 +125,7 @@ fn wall_before(world: &World, subject: &Subject) -> Option<f64> {
     let frame = &world.frame;
     let (eye, half_height) = (world.eye_height(), subject.reach(frame.up));
     let way = |i: usize| frame.direction((i % AROUND) as f64 / AROUND as f64 * std::f64::consts::TAU);
-    // Free at two heights of three.
-    let free = |i: usize| {
-        let beside = subject.center + way(i) * (subject.reach(way(i)) + 0.02 * eye);
-        let from = |level: f64| beside + frame.up * (level * half_height);
-        let mut at = LEVELS.map(|level| world.hit_distance(from(level), way(i)).unwrap_or(f64::INFINITY));
-        at.sort_by(f64::total_cmp);
-        at[1]
-    };
+    let free = |i: usize| middle(free_distances(world, subject, beside(world, subject, way(i)), way(i)));
     let gaps: Vec<f64> = (0..AROUND).map(free).collect();
     let back = (0..AROUND).min_by(|&a, &b| gaps[a].total_cmp(&gaps[b]))?;
     let gap = |turn: usize| gaps[(back + turn) % AROUND];

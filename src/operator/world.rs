@@ -370,13 +370,11 @@ impl Subject {
         let facets = Facets::of(gaussians, &solid, object.center, object.radius());
         let others = OpacityGrid::of(grid.clone(), gaussians, |i| !is_alone && !near[i]);
         let label = if object.label.is_empty() { format!("<obj-{}>", object.id) } else { object.label.clone() };
-        let half = object.half_extents;
-        let half_axes = [DVec3::X * half.x, DVec3::Y * half.y, DVec3::Z * half.z].map(|axis| object.rotation * axis);
         Self {
             label,
             center: object.center,
             corners,
-            half_axes,
+            half_axes: object.half_axes(),
             radius: object.radius(),
             points,
             body: if num_near > 0 { sum / f64::from(num_near) } else { object.center },

@@ -246,7 +246,7 @@ fn film(
         times.measure(Phase::Judge, || turn_to_fronts((scene, objects), (subjects, &ids), &mut world))?;
     }
     if looks && world.is_indoor() {
-        face_people(&scene.gaussians, objects, &ids, &mut world);
+        times.measure(Phase::World, || face_people(&scene.gaussians, objects, &ids, &mut world));
     }
     let program = &direction.program;
     // A shaky camera keeps clear wherever the hand takes it.

@@ -37,11 +37,11 @@ pub(super) fn face_people(gaussians: &Gaussians, objects: &ObjectSet, ids: &[u32
     }
 }
 
-/// Whether the noun of an object's label is one of these, or another name for it.
+/// Whether a word of an object's label is one of these, or the label another name for it.
 fn is_called(object: &Object, nouns: &[&str]) -> bool {
     let same = |noun: &&str| Things::embedded().is_related(&object.label, noun, &[Relation::Same]);
-    let is_noun = |noun: &&str| tokenize(&object.label).iter().rev().any(|word| word.text == **noun);
-    nouns.iter().any(|noun| same(noun) || is_noun(noun))
+    let has = |noun: &&str| tokenize(&object.label).iter().any(|word| word.text == **noun);
+    nouns.iter().any(|noun| same(noun) || has(noun))
 }
 
 /// The way from the back of a seat to the front, along a side of its box where it has one there.
@@ -82,8 +82,7 @@ fn toward_seat(objects: &ObjectSet, screen: &Object, up: DVec3) -> Option<DVec3>
 
 /// The horizontal axes of an object's box, half extents along them.
 fn level_axes(object: &Object, up: DVec3) -> Vec<DVec3> {
-    let half = object.half_extents;
-    let axes = [DVec3::X * half.x, DVec3::Y * half.y, DVec3::Z * half.z].map(|axis| object.rotation * axis);
+    let axes = object.half_axes();
     let upright = axes.iter().enumerate().max_by(|a, b| upness(a.1, up).total_cmp(&upness(b.1, up)));
     let upright = upright.map_or(0, |(nth, _)| nth);
     axes.into_iter().enumerate().filter(|(nth, _)| *nth != upright).map(|(_, axis)| axis - up * axis.dot(up)).collect()

@@ -351,9 +351,9 @@ impl<'a> StepContext<'a> {
         segment
     }
 
-    /// The segment with the pitch of a stated angle required at its start.
+    /// The segment with the pitch of a stated angle required at its start, where no step before decides that.
     pub(super) fn constrained_in_pitch(&self, segment: MotionSegment) -> MotionSegment {
-        match self.step.start.angle.or(self.step.end.angle) {
+        match self.step.start.angle.or(self.step.end.angle).filter(|_| self.before.is_none()) {
             Some(angle) => segment.requiring(Scope::Start, ConstraintKind::Pitch(pitch_band_deg(angle))),
             None => segment,
         }

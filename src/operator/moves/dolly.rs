@@ -62,7 +62,7 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
         None if is_lowered => segment.requiring(Scope::Start, ConstraintKind::Centered(target.clone(), 0.17)),
         None => segment.requiring(Scope::All, ConstraintKind::Centered(target.clone(), 0.17)),
     };
-    let segment = if context.before.is_none() { context.constrained_in_pitch(segment) } else { segment };
+    let segment = context.constrained_in_pitch(segment);
     let mut segment = context.constrained_at_end(context.constrained_at_start(segment));
     if !inward && context.step.end.whole && context.step.start.whole == context.step.end.whole {
         segment = segment.requiring(Scope::End, ConstraintKind::InFrame(context.step.end.subjects.clone(), 0.97));

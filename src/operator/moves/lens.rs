@@ -38,7 +38,7 @@ pub(super) fn zoom(context: &StepContext) -> Vec<MotionSegment> {
         segment = segment.requiring(Scope::All, ConstraintKind::LensRatio(wanted));
     }
     segment = segment.requiring(Scope::All, ConstraintKind::Centered(target.clone(), 0.2));
-    let segment = if context.before.is_none() { context.constrained_in_pitch(segment) } else { segment };
+    let segment = context.constrained_in_pitch(segment);
     segments.push(require_visible(context.constrained_at_end(segment), &target, Scope::All));
     segments
 }
