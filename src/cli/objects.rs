@@ -69,7 +69,7 @@ pub(super) struct Args {
     /// The Gaussians of a part go back to its whole; a whole leaves with its parts.
     #[arg(long, value_name = "ID,ID..", help_heading = heading::OUTPUT, value_parser = parse_ids)]
     drop: Vec<Ids>,
-    /// Write a sheet of every object, cut out, with its id: PNG or HTML
+    /// Write a sheet of every object with its id, its surroundings dimmed: PNG or HTML
     #[arg(long, value_name = "SHEET", help_heading = heading::OUTPUT)]
     sheet: Option<PathBuf>,
     /// Print one JSON list instead of a table

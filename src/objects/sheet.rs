@@ -1,6 +1,6 @@
 //! The contact sheet: every object with its id and name.
 //!
-//! Enters: a scene and its objects. Leaves: an overview, and one picture per object with everything else cut away.
+//! Enters: a scene and its objects. Leaves: an overview, and one picture per object before its dimmed surroundings.
 
 use std::collections::BTreeMap;
 
@@ -11,9 +11,9 @@ use rayon::prelude::*;
 use super::drawing::{self, Ink};
 use super::error::ObjectsError;
 use super::object::{Object, ObjectSet};
-use super::photo::{TILE_BACKGROUND, TILE_FOV_RAD, photo};
+use super::photo::{TILE_FOV_RAD, photo, photo_before};
 use super::up_views::{UpView, up_views};
-use super::viewpoints::{IdPicture, ViewpointSearch};
+use super::viewpoints::{IdPicture, MIN_ID_PIXELS, ThinnedScene, ViewpointSearch};
 use cinesplat_geometry::{Camera, Intrinsics};
 use cinesplat_render::{Quality, Renderer};
 use cinesplat_scene::Scene;
@@ -69,27 +69,27 @@ const CAPTION_PX: u32 = 44;
 /// Space between tiles.
 const GAP_PX: u32 = 6;
 
+/// Distance before the middle of an object, over its radius, from which a tile shows what is around it.
+const CONTEXT_RADII: f64 = 1.2;
+
 /// Step to the right of the caption of a part.
 const INDENT_PX: i64 = 16;
 
 /// Diagonal of a box, over the scene size, below which the overview draws it.
 const MAX_BOXED_FRAC: f64 = 0.3;
 
-/// Least number of pixels in the coarse picture of an object whose id the overview shows.
-const MIN_ID_PIXELS: usize = 6;
-
 /// The pictures of a sheet.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Sheet {
-    /// The scene with the number of every object that is seen.
-    pub overview: RgbImage,
+    /// The scene with the number of every object that is seen: one picture, or up to three of a room.
+    pub overviews: Vec<RgbImage>,
     /// One picture per object, each whole followed by its parts.
     pub tiles: Vec<Tile>,
     /// If up is a guess: the scene with each direction that may be up, most likely first.
     pub up_views: Vec<UpView>,
 }
 
-/// The picture of one object, cut out.
+/// The picture of one object.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Tile {
     /// Id of the object.
@@ -98,7 +98,7 @@ pub struct Tile {
     pub label: String,
     /// How many wholes it is a part of, one inside the other.
     pub depth: usize,
-    /// The object alone, from the direction in which it is least occluded in its scene.
+    /// The object from the direction in which most of it is seen in its scene, uncovered; what is around it is gray and dim.
     pub picture: RgbImage,
 }
 
@@ -108,13 +108,21 @@ pub struct Tile {
 /// [`ObjectsError::Picture`] for a scene without extent, or where a picture cannot be rendered.
 pub fn sheet(scene: &Scene, set: &ObjectSet, settings: &SheetSettings) -> Result<Sheet, ObjectsError> {
     let no_extent = || ObjectsError::Picture { reason: "the scene has no extent".to_owned() };
-    let viewpoints = ViewpointSearch::new(scene, set).ok_or_else(no_extent)?;
-    let painter = SheetPainter { scene, set, viewpoints, members: set.members(), settings };
+    let thinned = ThinnedScene::new(scene, set);
+    let viewpoints = ViewpointSearch::new(scene, set, &thinned).ok_or_else(no_extent)?;
+    let painter = SheetPainter {
+        scene,
+        set,
+        renderer: Renderer::new(&scene.gaussians),
+        viewpoints,
+        members: set.members(),
+        settings,
+    };
     let ordered = set.with_parts();
-    let overview = painter.overview()?;
+    let overviews = painter.overviews()?;
     let tiles: Result<Vec<Tile>, ObjectsError> =
         ordered.into_par_iter().map(|(object, depth)| painter.tile(object, depth)).collect();
-    Ok(Sheet { overview, tiles: tiles?, up_views: up_views(scene, settings.tile_size_px(), settings.quality)? })
+    Ok(Sheet { overviews, tiles: tiles?, up_views: up_views(scene, settings.tile_size_px(), settings.quality)? })
 }
 
 impl Sheet {
@@ -125,15 +133,20 @@ impl Sheet {
         let row_height = picture_height + CAPTION_PX + GAP_PX;
         let num_rows = (self.tiles.len() as u32).div_ceil(columns);
         let num_up_rows = (self.up_views.len() as u32).div_ceil(columns);
-        let overview_height = self.overview.height() + num_up_rows * row_height;
-        let height = overview_height + GAP_PX + num_rows * row_height;
-        let mut page = RgbImage::from_pixel(self.overview.width(), height, BACKGROUND);
-        imageops::replace(&mut page, &self.overview, 0, 0);
+        let overview_height: u32 = self.overviews.iter().map(RgbImage::height).sum();
+        let tiles_top = overview_height + num_up_rows * row_height;
+        let height = tiles_top + GAP_PX + num_rows * row_height;
+        let mut page = RgbImage::from_pixel(settings.overview_size_px().0, height, BACKGROUND);
+        let mut top = 0;
+        for overview in &self.overviews {
+            imageops::replace(&mut page, overview, 0, top);
+            top += i64::from(overview.height());
+        }
         for (i, view) in (0..).zip(&self.up_views) {
-            view.draw(&mut page, settings.place(self.overview.height(), i), picture_height);
+            view.draw(&mut page, settings.place(overview_height, i), picture_height);
         }
         for (i, tile) in (0..).zip(&self.tiles) {
-            let (left, top) = settings.place(overview_height, i);
+            let (left, top) = settings.place(tiles_top, i);
             imageops::replace(&mut page, &tile.picture, left, top);
             let indent = INDENT_PX * tile.depth.min(3) as i64;
             if tile.depth > 0 {
@@ -154,6 +167,7 @@ impl Sheet {
 struct SheetPainter<'a> {
     scene: &'a Scene,
     set: &'a ObjectSet,
+    renderer: Renderer<'a>,
     viewpoints: ViewpointSearch<'a>,
     /// Indices of the Gaussians of every object.
     members: BTreeMap<u32, Vec<usize>>,
@@ -161,24 +175,23 @@ struct SheetPainter<'a> {
 }
 
 impl SheetPainter<'_> {
-    fn overview(&self) -> Result<RgbImage, ObjectsError> {
+    fn overviews(&self) -> Result<Vec<RgbImage>, ObjectsError> {
         let (width, height) = self.settings.overview_size_px();
-        let camera = self.viewpoints.overview(Intrinsics::from_fov_y(width, height, OVERVIEW_FOV_RAD));
-        let renderer = Renderer::new(&self.scene.gaussians);
-        let mut image = photo(
-            self.scene,
-            &renderer,
-            &camera,
-            (self.scene.bounds().default_near(), [0.0; 3], self.settings.quality),
-        )?;
-        let ids = self.viewpoints.id_picture(&camera);
-        let scale = f64::from(width) / ids.width as f64;
+        let cameras = self.viewpoints.overviews(Intrinsics::from_fov_y(width, height, OVERVIEW_FOV_RAD))?;
+        cameras.iter().map(|camera| self.overview(camera)).collect()
+    }
+
+    fn overview(&self, camera: &Camera) -> Result<RgbImage, ObjectsError> {
+        let look = (self.scene.bounds().default_near(), [0.0; 3], self.settings.quality);
+        let mut image = photo(self.scene, &self.renderer, camera, look)?;
+        let ids = self.viewpoints.id_picture(camera)?;
+        let scale = f64::from(camera.intrinsics.width) / ids.width as f64;
         let place = |object| Some((object, visible_middle(&ids, self.set, object)? * scale));
         let seen: Vec<(&Object, DVec2)> = self.set.objects.iter().filter_map(place).collect();
         // The boxes of large objects would cover the picture.
         let size = self.scene.bounds().size();
         for (object, _) in seen.iter().filter(|(object, _)| 2.0 * object.radius() < MAX_BOXED_FRAC * size) {
-            draw_box(&mut image, &camera, object, 0.0);
+            draw_box(&mut image, camera, object, 0.0);
         }
         let mut taken = Vec::new();
         for (object, middle) in &seen {
@@ -192,11 +205,16 @@ impl SheetPainter<'_> {
 
     fn tile(&self, object: &Object, depth: usize) -> Result<Tile, ObjectsError> {
         let (width, height) = self.settings.tile_size_px();
-        let (camera, _) = self.viewpoints.closeup(object, Intrinsics::from_fov_y(width, height, TILE_FOV_RAD));
+        let camera = self.viewpoints.closeup(object, Intrinsics::from_fov_y(width, height, TILE_FOV_RAD))?;
         let members = self.members.get(&object.id).map_or(&[][..], Vec::as_slice);
         let gaussians = self.scene.gaussians.subset(members);
-        let mut picture =
-            photo(self.scene, &Renderer::new(&gaussians), &camera, (0.0, TILE_BACKGROUND, self.settings.quality))?;
+        let near = (object.center - camera.pose.position).length() - CONTEXT_RADII * object.radius();
+        let mut picture = photo_before(
+            self.scene,
+            (&self.renderer, &Renderer::new(&gaussians)),
+            &camera,
+            (near.max(0.0), self.settings.quality),
+        )?;
         if gaussians.is_empty() {
             draw_box(&mut picture, &camera, object, 0.0);
         }

@@ -11,12 +11,12 @@ use super::sheet::{Sheet, Tile};
 
 /// Style of the page: parts are indented under their whole.
 const STYLE: &str = "body{margin:24px;background:#18181c;color:#f2f2f2;font:16px/1.4 sans-serif}img{display:block;\
-border-radius:4px}#all{width:100%;max-width:1400px}main{display:grid;gap:16px;margin-top:24px;\
+border-radius:4px}.all{width:100%;max-width:1400px;margin-bottom:8px}main{display:grid;gap:16px;margin-top:24px;\
 grid-template-columns:repeat(auto-fill,minmax(240px,1fr))}section{background:#232329;border-radius:6px;padding:8px}\
 section img{width:100%}p{margin:6px 0}b{color:#ffd75e}.part{margin:8px 0 0 24px}code{color:#9fd3ff}";
 
 impl Sheet {
-    /// The sheet as HTML: the overview, then every whole with its parts.
+    /// The sheet as HTML: the overviews, then every whole with its parts.
     ///
     /// # Errors
     /// [`ObjectsError::Picture`] where a picture cannot be encoded.
@@ -25,11 +25,14 @@ impl Sheet {
         let mut page = format!(
             "<!DOCTYPE html>\n<html lang=\"en\"><head><meta charset=\"utf-8\"><title>{title}</title>\
              <style>{STYLE}</style></head>\n<body><h1>{title}</h1>\n\
-             <p>Name an object with <code>--name ID=NAME</code>; <code>&lt;obj-ID&gt;</code> in a prompt always works.</p>\n\
-             <img id=\"all\" alt=\"the scene\" src=\"{}\">\n{}<main>\n",
-            data_uri(&self.overview)?,
-            self.up_section()?
+             <p>Name an object with <code>--name ID=NAME</code>; <code>&lt;obj-ID&gt;</code> in a prompt always works.</p>\n",
         );
+        for overview in &self.overviews {
+            // Writing to a string cannot fail.
+            let _ = writeln!(page, "<img class=\"all\" alt=\"the scene\" src=\"{}\">", data_uri(overview)?);
+        }
+        page.push_str(&self.up_section()?);
+        page.push_str("<main>\n");
         let mut is_open = false;
         for tile in &self.tiles {
             if tile.depth == 0 {

@@ -1,25 +1,30 @@
 //! Viewpoints that show one object, or as many objects as possible.
 //!
-//! Enters: a scene with labels. Leaves: cameras. Candidates are compared on coarse pictures of object ids, drawn from
-//! sparse points with a depth buffer, which is much cheaper than rendering.
+//! Enters: a scene with labels. Leaves: cameras. Candidates are compared on coarse pictures of object ids and depths,
+//! rendered from a thinned scene.
 
-use glam::DVec3;
+use std::collections::BTreeSet;
 
+use glam::{DVec2, DVec3};
+use rayon::prelude::*;
+
+use super::boxes::upright_axes;
+use super::error::ObjectsError;
 use super::object::{Object, ObjectSet};
+use super::surroundings::surrounds;
+use super::voxels::VoxelGrid;
 use cinesplat_geometry::{Camera, Intrinsics, LevelFrame, Pose};
-use cinesplat_scene::Scene;
+use cinesplat_render::{RenderError, RenderSettings, Renderer};
+use cinesplat_scene::{Gaussians, Scene};
 
 /// Least opacity of an occluding Gaussian.
 const OCCLUDER_OPACITY: f32 = 0.3;
 
-/// Limit on the Gaussians drawn into a coarse picture.
-const MAX_POINTS: usize = 40_000;
+/// Limit on the Gaussians of the thinned scene.
+const MAX_GAUSSIANS: usize = 40_000;
 
 /// Height of the coarse pictures.
 const COARSE_HEIGHT_PX: u32 = 60;
-
-/// Largest half side of a splat in a coarse picture.
-const MAX_SPLAT_PX: i64 = 5;
 
 /// Diagonal of an object, over the scene size, from which the scene shows one thing and is seen from outside.
 const SINGLE_FRAC: f64 = 0.6;
@@ -27,136 +32,240 @@ const SINGLE_FRAC: f64 = 0.6;
 /// Share of the matter that is that of objects, from which on the scene is no room.
 const THINGS_FRAC: f64 = 0.9;
 
+/// Voxels along the diagonal of a scene, to tell whether it surrounds a viewer.
+const NUM_CELLS: f64 = 220.0;
+
 /// Distance to the nearest Gaussian, over the scene size, below which a viewpoint counts as blocked.
 const CLEARANCE_FRAC: f64 = 0.04;
 
-/// A coarse picture: object id and depth per pixel.
+/// Largest number of overviews of a room, least number of objects that a further one adds, and what an object counts that
+/// an earlier one shows.
+const MAX_OVERVIEWS: usize = 3;
+const MIN_NEW: usize = 2;
+const SEEN_WEIGHT: f64 = 0.15;
+
+/// Least number of pixels in the coarse picture of an object whose id an overview shows.
+pub(crate) const MIN_ID_PIXELS: usize = 6;
+
+/// Elevations from which one object may be seen, rad, likely ones first.
+const CLOSEUP_ELEVATIONS_RAD: [f64; 3] = [0.35, 0.1, 0.8];
+
+/// Factor on the pixels of an object seen from far above.
+const STEEP_WEIGHT: f64 = 0.85;
+
+/// Share by which the pixels of an object count more from the middle of the room, and less from behind. It applies in
+/// full from this distance of the object from the middle on, over the scene size.
+const INWARD_WEIGHT: f64 = 0.7;
+const INWARD_FRAC: f64 = 0.2;
+
+/// What the contrast of an object's pixels, at most 0.5, is added to: their weight without contrast.
+const CONTRAST_BASE: f64 = 0.4;
+
+/// Share of a picture that a fitted object takes, share of its Gaussians that may lie beyond at each side, and least
+/// number of Gaussians to fit it by.
+const FILL_FRAC: f64 = 0.86;
+const FIT_TAIL_FRAC: f64 = 0.004;
+const MIN_FITTED: usize = 5;
+
+/// A part of the Gaussians of a scene, each grown to cover what was left out, with their labels.
+pub(crate) struct ThinnedScene {
+    gaussians: Gaussians,
+    labels: Vec<u16>,
+}
+
+impl ThinnedScene {
+    pub(crate) fn new(scene: &Scene, set: &ObjectSet) -> Self {
+        let opacities = &scene.gaussians.opacities;
+        let mut kept: Vec<usize> = (0..opacities.len()).filter(|&i| opacities[i] >= OCCLUDER_OPACITY).collect();
+        let stride = kept.len().div_ceil(MAX_GAUSSIANS).max(1);
+        kept = kept.into_iter().step_by(stride).collect();
+        let mut gaussians = scene.gaussians.plain_subset(&kept);
+        let growth = (stride as f32).sqrt();
+        gaussians.scales.iter_mut().for_each(|scale| *scale *= growth);
+        let labels = kept.iter().map(|&i| set.labels.get(i).copied().unwrap_or(0)).collect();
+        Self { gaussians, labels }
+    }
+}
+
+/// A coarse picture: object id and depth per pixel; infinite where nothing is.
 pub(crate) struct IdPicture {
     pub(crate) width: usize,
     pub(crate) ids: Vec<u16>,
-    pub(crate) depths: Vec<f32>,
+    depths: Vec<f32>,
 }
 
-/// A search for viewpoints of a scene, on a sparse subset of its Gaussians.
+/// A search for viewpoints of a scene.
 pub(crate) struct ViewpointSearch<'a> {
     set: &'a ObjectSet,
+    thinned: &'a ThinnedScene,
+    renderer: Renderer<'a>,
+    render_settings: RenderSettings,
     frame: LevelFrame,
     center: DVec3,
     size: f64,
-    near: f64,
-    /// Mean, radius (scene units) and id.
-    points: Vec<(DVec3, f64, u16)>,
+    /// Whether the scene surrounds its objects, as a room does.
+    is_room: bool,
 }
 
 impl<'a> ViewpointSearch<'a> {
     /// `None` for a scene without extent or up.
-    pub(crate) fn new(scene: &Scene, set: &'a ObjectSet) -> Option<Self> {
+    pub(crate) fn new(scene: &Scene, set: &'a ObjectSet, thinned: &'a ThinnedScene) -> Option<Self> {
         let bounds = scene.bounds();
-        let gaussians = &scene.gaussians;
-        let solid: Vec<usize> = (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= OCCLUDER_OPACITY).collect();
-        let stride = solid.len().div_ceil(MAX_POINTS).max(1);
-        // Each point of a sparser subset covers more area.
-        let growth = (stride as f64).sqrt();
-        let point = |&i: &usize| {
-            let id = set.labels.get(i).copied().unwrap_or(0);
-            (gaussians.mean_world(i), f64::from(gaussians.scales[i].max_element()) * growth, id)
-        };
-        let points = solid.iter().step_by(stride).map(point).collect();
         let frame = LevelFrame::new(scene.up).ok()?;
-        let has_extent = bounds.size() > 0.0;
-        has_extent.then(|| Self {
+        let size = bounds.size();
+        let is_room =
+            !shows_one_thing(set, size) && !is_without_surroundings(&thinned.labels) && scene_surrounds(scene);
+        (size > 0.0).then(|| Self {
             set,
+            thinned,
+            renderer: Renderer::new(&thinned.gaussians),
+            render_settings: RenderSettings { near: bounds.default_near(), ..RenderSettings::for_scene(scene) },
             frame,
             center: bounds.center(),
-            size: bounds.size(),
-            near: bounds.default_near(),
-            points,
+            size,
+            is_room,
         })
     }
 
-    /// Draws the coarse picture of a camera.
-    pub(crate) fn id_picture(&self, camera: &Camera) -> IdPicture {
-        let intrinsics = camera.intrinsics.scaled(f64::from(COARSE_HEIGHT_PX) / f64::from(camera.intrinsics.height));
-        let camera = Camera { intrinsics, ..*camera };
-        let (width, height) = (intrinsics.width as usize, intrinsics.height as usize);
-        let mut picture =
-            IdPicture { width, ids: vec![0; width * height], depths: vec![f32::INFINITY; width * height] };
-        for &(mean, radius, id) in &self.points {
-            if let Some((px, depth)) = camera.project(mean).filter(|(_, depth)| *depth > self.near) {
-                let reach = ((radius * intrinsics.fy_px / depth) as i64).min(MAX_SPLAT_PX);
-                picture.splat((px.x.floor() as i64, px.y.floor() as i64), reach, depth as f32, id);
-            }
-        }
-        picture
+    /// The coarse picture of a camera.
+    pub(crate) fn id_picture(&self, camera: &Camera) -> Result<IdPicture, ObjectsError> {
+        let camera = coarse(camera);
+        let map = self
+            .renderer
+            .object_ids(&camera, &self.render_settings, &self.thinned.labels)
+            .map_err(|error| failed(&error))?;
+        let depths = self.renderer.depth(&camera, &self.render_settings).map_err(|error| failed(&error))?.median;
+        let depths = depths.into_iter().map(|depth| if depth.is_nan() { f32::INFINITY } else { depth }).collect();
+        Ok(IdPicture { width: camera.intrinsics.width as usize, ids: map.ids, depths })
     }
 
-    /// The camera that shows the most objects, with little void and nothing close before the lens.
-    pub(crate) fn overview(&self, intrinsics: Intrinsics) -> Camera {
-        if self.shows_one_thing() || self.is_without_surroundings() {
-            return self.outside(intrinsics);
+    /// The camera that shows the most objects, with little void and nothing close before the lens; in a room up to
+    /// [`MAX_OVERVIEWS`] cameras, each of which shows the most of what the earlier ones do not.
+    ///
+    /// # Errors
+    /// [`ObjectsError::Picture`] where a picture cannot be rendered.
+    pub(crate) fn overviews(&self, intrinsics: Intrinsics) -> Result<Vec<Camera>, ObjectsError> {
+        if !self.is_room {
+            let camera = best_of(self.outside(intrinsics), |camera| self.outside_score(camera))?;
+            let all = self.thinned.labels.iter().copied().collect();
+            return Ok(vec![self.fitted(camera, &all)]);
         }
+        let clear: Vec<Camera> = self.inside(intrinsics).into_iter().filter(|camera| self.is_clear(camera)).collect();
+        let pictures: Result<Vec<IdPicture>, ObjectsError> =
+            clear.par_iter().map(|camera| self.id_picture(camera)).collect();
+        let pictures = pictures?;
+        let mut chosen: Vec<Camera> = Vec::new();
+        let mut seen = BTreeSet::new();
+        while chosen.len() < MAX_OVERVIEWS {
+            let scores = pictures.iter().map(|picture| self.overview_score(picture, &seen));
+            let best = scores.enumerate().fold(None, |best: Option<(usize, f64)>, (i, score)| {
+                if best.is_none_or(|(_, most)| score > most + 1e-9) { Some((i, score)) } else { best }
+            });
+            let Some((best, _)) = best else { break };
+            let shown = self.seen_in(&pictures[best]);
+            let num_new = shown.difference(&seen).count();
+            if !chosen.is_empty() && num_new < MIN_NEW.max(self.set.objects.len() / 10) {
+                break;
+            }
+            seen.extend(shown);
+            chosen.push(clear[best]);
+        }
+        if chosen.is_empty() {
+            chosen.push(self.camera_at(self.center, self.middle_of_objects(), intrinsics));
+        }
+        Ok(chosen)
+    }
+
+    /// Cameras in a room, aimed at the middle of its objects.
+    fn inside(&self, intrinsics: Intrinsics) -> Vec<Camera> {
         let target = self.middle_of_objects();
-        let mut best = (f64::NEG_INFINITY, self.camera_at(self.center, target, intrinsics));
-        for height_frac in [0.05, 0.15, 0.3] {
-            for radius_frac in [0.25, 0.4, 0.6, 0.9] {
-                for step in 0..16 {
-                    let away = self.frame.direction(f64::from(step) * std::f64::consts::TAU / 16.0);
-                    let eye = self.center + (away * radius_frac + self.frame.up * height_frac) * self.size;
-                    let camera = self.camera_at(eye, target, intrinsics);
-                    let score = self.overview_score(&camera);
-                    if score > best.0 {
-                        best = (score, camera);
-                    }
-                }
-            }
-        }
-        best.1
+        let eye = |(height_frac, radius_frac, step): (f64, f64, u32)| {
+            let away = self.frame.direction(f64::from(step) * std::f64::consts::TAU / 16.0);
+            self.center + (away * radius_frac + self.frame.up * height_frac) * self.size
+        };
+        let places = [0.05, 0.15, 0.3].into_iter().flat_map(|height_frac| {
+            let radii = [0.25, 0.4, 0.6, 0.9].into_iter();
+            radii.flat_map(move |radius_frac| (0..16).map(move |step| (height_frac, radius_frac, step)))
+        });
+        places.map(|place| self.camera_at(eye(place), target, intrinsics)).collect()
     }
 
-    /// Whether one object is most of the scene. The curtains or the window of a room may be as long as the scene.
-    fn shows_one_thing(&self) -> bool {
-        let is_large = |object: &Object| object.parent.is_none() && 2.0 * object.radius() > SINGLE_FRAC * self.size;
-        if self.set.labels.iter().any(|label| *label > 0) {
-            self.set.only_whole().is_some_and(is_large)
-        } else {
-            self.set.objects.iter().any(is_large)
-        }
-    }
-
-    /// Whether nearly all matter is that of objects: things without a room around them.
-    fn is_without_surroundings(&self) -> bool {
-        let owned = self.points.iter().filter(|(_, _, id)| *id > 0).count();
-        owned as f64 >= THINGS_FRAC * self.points.len() as f64
-    }
-
-    /// The camera outside the scene that shows most of the objects.
-    fn outside(&self, intrinsics: Intrinsics) -> Camera {
+    /// Cameras outside the scene.
+    fn outside(&self, intrinsics: Intrinsics) -> Vec<Camera> {
         let distance = 0.55 * self.size / (intrinsics.fov_y_rad() / 2.0).sin();
-        let mut best = (-1.0, self.camera_at(self.center + self.frame.north * distance, self.center, intrinsics));
-        for away in self.frame.rings(16, &[0.3, 0.1]) {
-            let camera = self.camera_at(self.center + away * distance, self.center, intrinsics);
-            let picture = self.id_picture(&camera);
-            let seen = picture.ids.iter().filter(|id| **id > 0).count() as f64;
-            if seen > best.0 {
-                best = (seen, camera);
-            }
-        }
-        best.1
+        let camera = |away: DVec3| self.camera_at(self.center + away * distance, self.center, intrinsics);
+        self.frame.rings(16, &[0.3, 0.1]).map(camera).collect()
     }
 
-    /// The camera that shows most of one object, and the visible share of it, 0..=1.
-    pub(crate) fn closeup(&self, object: &Object, intrinsics: Intrinsics) -> (Camera, f64) {
+    /// The camera that shows most of one object and fits its picture, from where a person in the room would look.
+    ///
+    /// # Errors
+    /// [`ObjectsError::Picture`] where a picture cannot be rendered.
+    pub(crate) fn closeup(&self, object: &Object, intrinsics: Intrinsics) -> Result<Camera, ObjectsError> {
+        let ids = self.ids_of(object);
         let narrow = intrinsics.fov_y_rad() * intrinsics.aspect().min(1.0);
         let distance = object.radius().max(0.01 * self.size) * 1.15 / (narrow / 2.0).sin();
-        let mut best = (-1.0, self.camera_at(object.center + self.frame.north * distance, object.center, intrinsics));
-        for away in self.frame.rings(12, &[0.35, 0.1, 0.8]) {
-            let camera = self.camera_at(object.center + away * distance, object.center, intrinsics);
-            let seen = self.visible_frac(object, &camera);
-            if seen > best.0 + 1e-9 {
-                best = (seen, camera);
-            }
+        let inward = if self.is_room {
+            self.frame.horizontal(self.center - object.center) / (INWARD_FRAC * self.size)
+        } else {
+            DVec3::ZERO
+        };
+        let cameras = self
+            .frame
+            .rings(12, &CLOSEUP_ELEVATIONS_RAD)
+            .map(|away| self.camera_at(object.center + away * distance, object.center, intrinsics));
+        let score = |camera: &Camera| {
+            let picture = self.id_picture(camera)?;
+            let seen = picture.ids.iter().filter(|id| ids.contains(id)).count() as f64;
+            let away = (camera.pose.position - object.center) / distance;
+            let steepness = if away.dot(self.frame.up) > 0.5 { STEEP_WEIGHT } else { 1.0 };
+            let inward = 1.0 + INWARD_WEIGHT * away.dot(inward.clamp_length_max(1.0));
+            Ok((seen + 1.0)
+                * steepness
+                * inward
+                * (CONTRAST_BASE + self.contrast(camera, &picture, &|id| ids.contains(&id))?))
+        };
+        let camera = best_of(cameras.collect(), score)?;
+        Ok(self.fitted(camera, &ids))
+    }
+
+    /// Labels of an object and its parts.
+    fn ids_of(&self, object: &Object) -> BTreeSet<u16> {
+        let parts = self.set.parts_of(object.id);
+        parts.into_iter().chain([object.id]).filter_map(|id| u16::try_from(id).ok()).collect()
+    }
+
+    /// The lens with which the Gaussians of these labels fill the picture.
+    fn fitted(&self, camera: Camera, ids: &BTreeSet<u16>) -> Camera {
+        let gaussians = &self.thinned.gaussians;
+        let extent_of = |i: usize| {
+            let (px, depth) = camera.project(gaussians.mean_world(i))?;
+            let radius = f64::from(gaussians.scales[i].max_element()) * camera.intrinsics.fy_px / depth;
+            Some((px, radius))
+        };
+        let own = (0..gaussians.len()).filter(|&i| ids.contains(&self.thinned.labels[i]));
+        let extents: Vec<(DVec2, f64)> = own.filter_map(extent_of).collect();
+        if extents.len() < MIN_FITTED {
+            return camera;
         }
-        (best.1, best.0.max(0.0))
+        let tail = (FIT_TAIL_FRAC * extents.len() as f64) as usize;
+        let range = |along: &dyn Fn(&DVec2) -> f64| {
+            let mut low: Vec<f64> = extents.iter().map(|(px, radius)| along(px) - radius).collect();
+            let mut high: Vec<f64> = extents.iter().map(|(px, radius)| along(px) + radius).collect();
+            low.sort_by(f64::total_cmp);
+            high.sort_by(f64::total_cmp);
+            (low[tail], high[high.len() - 1 - tail])
+        };
+        let (x, y) = (range(&|px| px.x), range(&|px| px.y));
+        let lens = camera.intrinsics;
+        let size = DVec2::new(f64::from(lens.width), f64::from(lens.height));
+        let extent = DVec2::new(x.1 - x.0, y.1 - y.0).max(size * 0.02);
+        let zoom = (size * FILL_FRAC / extent).min_element();
+        let middle = DVec2::new(x.0 + x.1, y.0 + y.1) / 2.0;
+        let center = size / 2.0 - (middle - DVec2::new(lens.cx_px, lens.cy_px)) * zoom;
+        let intrinsics =
+            Intrinsics { fx_px: lens.fx_px * zoom, fy_px: lens.fy_px * zoom, cx_px: center.x, cy_px: center.y, ..lens };
+        Camera { intrinsics, ..camera }
     }
 
     fn camera_at(&self, eye: DVec3, target: DVec3, intrinsics: Intrinsics) -> Camera {
@@ -170,51 +279,112 @@ impl<'a> ViewpointSearch<'a> {
         if count > 0 { (sum / count as f64 + self.center) / 2.0 } else { self.center }
     }
 
-    fn overview_score(&self, camera: &Camera) -> f64 {
+    /// Pixels of objects, which count more where they are rich in contrast: fronts are.
+    fn outside_score(&self, camera: &Camera) -> Result<f64, ObjectsError> {
+        let picture = self.id_picture(camera)?;
+        let seen = picture.ids.iter().filter(|id| **id > 0).count() as f64;
+        Ok(seen * (CONTRAST_BASE + self.contrast(camera, &picture, &|id| id > 0)?))
+    }
+
+    /// Standard deviation of the brightness, 0..=0.5, of the pixels with some ids.
+    fn contrast(
+        &self,
+        camera: &Camera,
+        picture: &IdPicture,
+        is_counted: &dyn Fn(u16) -> bool,
+    ) -> Result<f64, ObjectsError> {
+        let frame = self.renderer.render(&coarse(camera), &self.render_settings).map_err(|error| failed(&error))?;
+        let brightness = |rgb: &[f32]| f64::from(rgb.iter().sum::<f32>().clamp(0.0, 3.0) / 3.0);
+        let values: Vec<f64> = (frame.rgb.chunks_exact(3).zip(&picture.ids))
+            .filter(|(_, id)| is_counted(**id))
+            .map(|(rgb, _)| brightness(rgb))
+            .collect();
+        let count = values.len().max(1) as f64;
+        let mean = values.iter().sum::<f64>() / count;
+        Ok((values.iter().map(|value| (value - mean).powi(2)).sum::<f64>() / count).sqrt())
+    }
+
+    /// Whether nothing is close to a camera.
+    fn is_clear(&self, camera: &Camera) -> bool {
         let clearance = CLEARANCE_FRAC * self.size;
         let eye = camera.pose.position;
-        if self.points.iter().any(|(mean, ..)| mean.distance_squared(eye) < clearance * clearance) {
-            return f64::NEG_INFINITY;
-        }
-        let picture = self.id_picture(camera);
-        let mut counts = vec![0_u32; usize::from(u16::MAX) + 1];
-        for &id in &picture.ids {
-            counts[usize::from(id)] += 1;
-        }
-        let seen: f64 =
-            self.set.objects.iter().map(|object| (f64::from(counts[object.id as usize]) / 40.0).min(1.0)).sum();
+        let gaussians = &self.thinned.gaussians;
+        (0..gaussians.len()).all(|i| gaussians.mean_world(i).distance_squared(eye) >= clearance * clearance)
+    }
+
+    /// Ids of the objects that a picture shows, those of their wholes not included.
+    fn seen_in(&self, picture: &IdPicture) -> BTreeSet<u32> {
+        let counts = picture.counts();
+        let is_seen = |object: &&Object| counts[object.id as usize] >= MIN_ID_PIXELS as u32;
+        self.set.objects.iter().filter(is_seen).map(|object| object.id).collect()
+    }
+
+    /// `seen`: objects that count little, because another picture shows them.
+    fn overview_score(&self, picture: &IdPicture, seen: &BTreeSet<u32>) -> f64 {
+        let counts = picture.counts();
+        let value = |object: &Object| {
+            let weight = if seen.contains(&object.id) { SEEN_WEIGHT } else { 1.0 };
+            weight * (f64::from(counts[object.id as usize]) / 40.0).min(1.0)
+        };
+        let shown: f64 = self.set.objects.iter().map(value).sum();
         let share = |what: &dyn Fn(f32) -> bool| {
             picture.depths.iter().filter(|depth| what(**depth)).count() as f64 / picture.depths.len() as f64
         };
         let void = share(&|depth| depth.is_infinite());
         let close = share(&|depth| f64::from(depth) < 0.12 * self.size);
-        seen - (void + close) * (1.0 + 0.5 * self.set.objects.len() as f64)
-    }
-
-    /// Visible share of an object: its pixels in the scene over its pixels when drawn alone.
-    fn visible_frac(&self, object: &Object, camera: &Camera) -> f64 {
-        let picture = self.id_picture(camera);
-        let own = picture.ids.iter().filter(|id| u32::from(**id) == object.id).count();
-        let alone = ViewpointSearch {
-            points: self.points.iter().copied().filter(|p| u32::from(p.2) == object.id).collect(),
-            ..*self
-        };
-        let all = alone.id_picture(camera).ids.iter().filter(|id| **id > 0).count();
-        own as f64 / all.max(1) as f64
+        shown - (void + close) * (1.0 + 0.5 * (self.set.objects.len() - seen.len()) as f64)
     }
 }
 
 impl IdPicture {
-    fn splat(&mut self, at: (i64, i64), reach: i64, depth: f32, id: u16) {
-        let height = (self.ids.len() / self.width) as i64;
-        let range = |middle: i64, limit: i64| (middle - reach).max(0)..(middle + reach + 1).min(limit);
-        for y in range(at.1, height) {
-            for x in range(at.0, self.width as i64) {
-                let pixel = (y * self.width as i64 + x) as usize;
-                if depth < self.depths[pixel] {
-                    (self.depths[pixel], self.ids[pixel]) = (depth, id);
-                }
-            }
+    /// Number of pixels of each id.
+    fn counts(&self) -> Vec<u32> {
+        let mut counts = vec![0_u32; usize::from(u16::MAX) + 1];
+        self.ids.iter().for_each(|&id| counts[usize::from(id)] += 1);
+        counts
+    }
+}
+
+/// Whether one object is most of a scene. The curtains or the window of a room may be as long as the scene.
+fn shows_one_thing(set: &ObjectSet, scene_size: f64) -> bool {
+    let is_large = |object: &Object| object.parent.is_none() && 2.0 * object.radius() > SINGLE_FRAC * scene_size;
+    if set.labels.iter().any(|label| *label > 0) {
+        set.only_whole().is_some_and(is_large)
+    } else {
+        set.objects.iter().any(is_large)
+    }
+}
+
+/// Whether most of a scene is seen from inside.
+fn scene_surrounds(scene: &Scene) -> bool {
+    let bounds = scene.bounds();
+    let axes = upright_axes(scene.up);
+    surrounds(&VoxelGrid::new(&scene.gaussians, bounds.size() / NUM_CELLS, bounds.center(), axes))
+}
+
+/// Whether nearly all matter is that of objects: things without a room around them.
+fn is_without_surroundings(labels: &[u16]) -> bool {
+    labels.iter().filter(|label| **label > 0).count() as f64 >= THINGS_FRAC * labels.len() as f64
+}
+
+/// The camera with which coarse pictures are rendered.
+fn coarse(camera: &Camera) -> Camera {
+    let intrinsics = camera.intrinsics.scaled(f64::from(COARSE_HEIGHT_PX) / f64::from(camera.intrinsics.height));
+    Camera { intrinsics, ..*camera }
+}
+
+fn failed(error: &RenderError) -> ObjectsError {
+    ObjectsError::Picture { reason: error.to_string() }
+}
+
+/// The first camera with the highest score.
+fn best_of(cameras: Vec<Camera>, score: impl Fn(&Camera) -> Result<f64, ObjectsError>) -> Result<Camera, ObjectsError> {
+    let mut best: Option<(f64, Camera)> = None;
+    for camera in cameras {
+        let value = score(&camera)?;
+        if best.is_none_or(|(most, _)| value > most + 1e-9) {
+            best = Some((value, camera));
         }
     }
+    best.map(|(_, camera)| camera).ok_or_else(|| ObjectsError::Picture { reason: "there is no viewpoint".to_owned() })
 }

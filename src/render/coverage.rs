@@ -124,7 +124,8 @@ impl Coverage {
                 // `len` is always below LIST_LEN; the remainder removes the bounds check.
                 let place = len % LIST_LEN;
                 list.0[place..place + 8].copy_from_slice(&positions);
-                (len, first) = (len + mask.count_ones() as usize, first + 0x0808_0808_0808_0808);
+                // The positions of the last byte are not used after it, and may wrap around.
+                (len, first) = (len + mask.count_ones() as usize, first.wrapping_add(0x0808_0808_0808_0808));
             }
         }
         len

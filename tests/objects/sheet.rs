@@ -101,10 +101,39 @@ fn a_room_with_a_long_curtain_is_seen_from_inside() {
     let scene = scene_of(gaussians);
     let set = objects::from_labels(&scene, labels);
     let settings = SheetSettings { tile_width_px: 64, ..SheetSettings::default() };
-    let overview = sheet(&scene, &set, &settings).unwrap().overview;
+    let overview = sheet(&scene, &set, &settings).unwrap().overviews.remove(0);
     let num_void = overview.pixels().filter(|pixel| pixel.0.iter().all(|value| *value < 3)).count();
     let num_pixels = (overview.width() * overview.height()) as usize;
     assert!(num_void * 5 < 2 * num_pixels, "{num_void} of {num_pixels} pixels show nothing");
+}
+
+#[test]
+fn a_closed_room_is_seen_from_inside_and_its_picture_from_the_front() {
+    let mut gaussians = Gaussians::default();
+    let pale = Vec3::new(0.8, 0.78, 0.74);
+    push_box(&mut gaussians, DVec3::new(0.0, 1.25, 0.0), DVec3::new(2.5, 1.25, 2.0), 0.06, pale);
+    let mut labels = vec![0; gaussians.len()];
+    // A picture on the wall: red to the room, and blue to the wall.
+    push_box(&mut gaussians, DVec3::new(0.0, 1.4, -1.9), DVec3::new(0.4, 0.3, 0.0), 0.03, Vec3::new(0.8, 0.1, 0.1));
+    push_box(&mut gaussians, DVec3::new(0.0, 1.4, -1.96), DVec3::new(0.4, 0.3, 0.0), 0.03, Vec3::new(0.1, 0.1, 0.8));
+    labels.resize(gaussians.len(), 1);
+    push_box(&mut gaussians, DVec3::new(1.0, 0.4, 0.5), DVec3::splat(0.35), 0.03, Vec3::new(0.1, 0.7, 0.1));
+    labels.resize(gaussians.len(), 2);
+    let scene = scene_of(gaussians);
+    let set = objects::from_labels(&scene, labels);
+    let sheet = sheet(&scene, &set, &SheetSettings { tile_width_px: 64, ..SheetSettings::default() }).unwrap();
+    let count = |image: &image::RgbImage, is: &dyn Fn([i32; 3]) -> bool| {
+        image.pixels().filter(|pixel| is(pixel.0.map(i32::from))).count()
+    };
+    // From above the ceiling neither would be seen.
+    let is_red = |[r, g, b]: [i32; 3]| r > 90 && r > 2 * g && r > 2 * b;
+    let is_green = |[r, g, b]: [i32; 3]| g > 90 && g > 2 * r && g > 2 * b;
+    let seen_in_all =
+        |is: &dyn Fn([i32; 3]) -> bool| sheet.overviews.iter().map(|image| count(image, is)).sum::<usize>();
+    assert!(seen_in_all(&is_red) > 100 && seen_in_all(&is_green) > 100, "the overviews stand in the room");
+    let is_blue = |[r, g, b]: [i32; 3]| b > 90 && b > 2 * r && b > 2 * g;
+    let tile = &sheet.tiles[0].picture;
+    assert!(count(tile, &is_red) > 500 && count(tile, &is_blue) < 20, "the picture is seen from the room");
 }
 
 #[test]
