@@ -48,6 +48,7 @@ use crate::sized::{point_by_comparison, point_by_size};
 use crate::times::ListedTimes;
 use crate::told::without_told;
 use crate::uses::name_by_uses;
+use crate::verbs_apart::take_verbs_off;
 
 /// The facts about a scene that the director needs.
 #[derive(Debug, Clone, Copy)]
@@ -136,6 +137,7 @@ impl Director {
         let (prompt, behinds) = without_behind(prompt);
         let prompt = &*prompt;
         let mut found = self.names.mentions(prompt, objects)?;
+        take_verbs_off(prompt, objects, &mut found);
         found.retain(|found| !is_no_thing(prompt, &found.mention, objects));
         let mentions: Vec<Mention> = found.iter().map(|found| found.mention.clone()).collect();
         let scenery = scenery(prompt, &mentions)?;

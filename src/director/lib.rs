@@ -56,6 +56,7 @@ mod tensor_file;
 mod times;
 mod told;
 mod uses;
+mod verbs_apart;
 
 pub use calibration::Calibration;
 pub use decoding::Choice;

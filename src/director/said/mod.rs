@@ -32,6 +32,7 @@ mod levels;
 mod looks;
 mod meanwhile;
 mod moods;
+mod named_moves;
 mod named_times;
 mod narrated;
 mod nearings;
@@ -161,6 +162,13 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     take_said_of_pictures(linked, &mut direction.program.steps);
     looks::roll_back(linked, &mut direction.program.steps);
     take_said_of_moves(linked, direction);
+    named_moves::move_as_named(linked, &mut direction.program.steps);
+    named_moves::rest_as_named(linked, &mut direction.program.steps);
+    named_moves::stay_with_subject(linked, &mut direction.program.steps);
+    named_moves::face_on_the_way(linked, &mut direction.program.steps);
+    named_moves::travel_without_tilt(linked, &mut direction.program.steps);
+    named_moves::show_all_of_number(linked, &mut direction.program.steps);
+    named_moves::join_dolly_zooms(&mut direction.program.steps);
     Ok(())
 }
 

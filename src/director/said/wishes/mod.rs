@@ -10,7 +10,7 @@ mod steps;
 mod text;
 mod things;
 
-use cinesplat_language::{Linked, QuantityKind, is_listed};
+use cinesplat_language::{Linked, QuantityKind, Senses, is_listed};
 use cinesplat_objects::Object;
 use cinesplat_operator::{Framing, Speed, Step, SubjectSide};
 use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
@@ -44,6 +44,9 @@ const SHORT: usize = 40;
 /// Words that rule out what follows, and words of a way past a thing.
 const NOT: &str = "not never 't no without dont";
 const PASSES: &str = "over under behind through past between around along across above beneath below";
+/// Senses of words that say how a camera goes or turns.
+const WAY_SENSES: [&str; 10] =
+    ["around", "circle", "sideways", "lift", "turn", "nod", "curve", "along", "vertigo", "whip"];
 /// Words of growth.
 const GROWS: &str = "bigger larger wider grows expands unfolds";
 /// Words of time to look.
@@ -217,7 +220,13 @@ fn is_wish(text: &Text<'_>, linked: &Linked) -> bool {
     // `No movement whatsoever` is one picture.
     let rests =
         words.windows(2).any(|two| matches!(two, ["no" | "without", "movement" | "motion" | "moves" | "moving"]));
-    words.len() >= FEWEST_WORDS && !rests && !(0..words.len()).any(says)
+    // A damaged list of senses has been told of before.
+    let ways = Senses::named(&WAY_SENSES).unwrap_or_default();
+    let senses = linked.senses().unwrap_or_default();
+    let has_way = |at: usize| {
+        senses.get(at).is_some_and(|senses| senses.overlaps(ways)) && !is_object(words[at]) && !text.is_likeness(at)
+    };
+    words.len() >= FEWEST_WORDS && !rests && !(0..words.len()).any(|at| says(at) || has_way(at))
 }
 
 #[cfg(test)]

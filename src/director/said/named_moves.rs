@@ -1,0 +1,185 @@
+//! Moves that the words name, about what they were said of: `from the left chair truck to the right chair`, `pan right to the bucket,
+//! push`, `hold on the mask`, `straight down, no tilt`.
+
+use cinesplat_language::{Linked, is_listed};
+use cinesplat_operator::{Look, Step};
+use cinesplat_trajectory::Move;
+
+use super::briefs::is_camera_verb;
+use super::directions::is_form;
+
+/// Words that deny the verb behind them, and how many of the words before may be one.
+const DENIALS: &str = "no not never without 't dont nor instead than of counter";
+const NUM_BEFORE: usize = 3;
+/// Verbs that say no way.
+const STOPS: [&str; 10] =
+    ["hold", "rest", "pause", "linger", "stop", "start", "begin", "finish", "land", "settle"];
+
+/// The move that a verb names and that leaves its side open.
+fn named(word: &str) -> Option<Move> {
+    let named = [("pan", Move::PanRight), ("truck", Move::TruckRight)];
+    named.into_iter().find(|(verb, _)| is_form(word, verb)).map(|(_, movement)| movement)
+}
+
+/// Whether the word at `at` is denied.
+fn is_denied(words: &[&str], at: usize) -> bool {
+    words[..at].iter().rev().take(NUM_BEFORE).any(|word| is_listed(DENIALS, word))
+}
+
+/// Pans and slides where the words of a way name no other move.
+pub(crate) fn move_as_named(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let verbs = (0..words.len()).filter(|&at| is_camera_verb(&words, at) && !is_denied(&words, at));
+        let mut verbs = verbs.filter(|&at| !STOPS.iter().any(|stop| is_form(words[at], stop)));
+        let (Some(first), None) = (verbs.next(), verbs.next()) else { continue };
+        let is_way = matches!(step.movement, Move::Follow | Move::FlyThrough) && step.with.is_empty();
+        let Some(movement) = named(words[first]).filter(|_| is_way && step.via.is_none()) else { continue };
+        (step.movement, step.either_way) = (movement, true);
+    }
+}
+
+/// Words that stand for more than the thing shown last, or for an earlier one.
+const OTHERS: &str = "either neither both all they them everything room whole entire other others another first start began beginning opening ones one \
+    each every everyone pair two three four five six seven group scene start where back again same there rest next former latter";
+
+/// Moves about the thing that the step before ends on, where the words of a step name nothing.
+pub(crate) fn stay_with_subject(linked: &Linked, steps: &mut [Step]) {
+    for nth in 1..steps.len() {
+        let words = linked.texts_in(steps[nth].words.unwrap_or_default());
+        let names = words.iter().any(|word| linked.slot_at(word).is_some() || is_listed(OTHERS, word));
+        let own = steps[nth - 1].words != steps[nth].words && !words.is_empty();
+        let [before] = steps[nth - 1].end.subjects[..] else { continue };
+        let step = &mut steps[nth];
+        let [subject] = step.end.subjects[..] else { continue };
+        let is_plain = step.start.subjects.is_empty() && step.via.is_none() && step.look.is_none() && !step.returns;
+        let is_about = matches!(
+            step.movement,
+            Move::PushIn
+                | Move::PullOut
+                | Move::ZoomIn
+                | Move::ZoomOut
+                | Move::OrbitLeft
+                | Move::OrbitRight
+                | Move::ArcLeft
+                | Move::ArcRight
+                | Move::Static
+        );
+        if own && !names && is_plain && is_about && subject != before {
+            step.end.subjects = vec![before];
+        }
+    }
+}
+
+/// Verbs of a rest.
+const RESTS: [&str; 7] = ["hold", "rest", "linger", "dwell", "pause", "stay", "settle"];
+
+/// Rests where the words of a step say that it rests on something, and no move.
+pub(crate) fn rest_as_named(linked: &Linked, steps: &mut [Step]) {
+    for nth in 1..steps.len() {
+        let words = linked.texts_in(steps[nth].words.unwrap_or_default());
+        let lead = words.iter().position(|word| !is_listed("and then , ; . finally", word)).unwrap_or(0);
+        let rests = words.get(lead).is_some_and(|word| RESTS.iter().any(|rest| is_form(word, rest)))
+            && words.get(lead + 1) == Some(&"on")
+            && words.get(lead + 2..).is_some_and(|rest| rest.iter().take(2).any(|word| linked.slot_at(word).is_some()));
+        let moves = (lead + 1..words.len()).any(|at| is_camera_verb(&words, at));
+        let repeats = steps[nth].movement == steps[nth - 1].movement;
+        if rests && !moves && repeats {
+            let (end, words) = (steps[nth].end.clone(), steps[nth].words);
+            steps[nth] = Step { end, words, duration_secs: steps[nth].duration_secs, ..Step::of(Move::Static) };
+        }
+    }
+}
+
+/// Words of a camera that faces something on its way.
+const FACES: &str = "facing looking watching";
+const BETWEEN: &str = "in a straight line , and while always the at to still";
+
+/// Looks at what the words after a way only say that it faces: `from the left speaker to the right one, facing the stage`.
+pub(crate) fn face_on_the_way(linked: &Linked, steps: &mut Vec<Step>) {
+    for nth in (1..steps.len()).rev() {
+        let words = linked.texts_in(steps[nth].words.unwrap_or_default());
+        let faces = words.iter().any(|word| is_listed(FACES, word));
+        let is_rest = |word: &&str| is_listed(BETWEEN, word) || is_listed(FACES, word) || linked.slot_at(word).is_some();
+        let travels = matches!(steps[nth - 1].movement, Move::Follow | Move::TruckLeft | Move::TruckRight);
+        let faced = steps[nth].end.subjects.clone();
+        let is_way = steps[nth].movement == Move::Follow || steps[nth].movement == Move::Static;
+        if faces && words.iter().all(|word| is_rest(&word)) && travels && is_way && !faced.is_empty() {
+            steps[nth - 1].look.get_or_insert(Look::At(faced));
+            steps.remove(nth);
+        }
+    }
+}
+
+/// Goes straight up or down where the words rule out a tilt and name none.
+pub(crate) fn travel_without_tilt(linked: &Linked, steps: &mut [Step]) {
+    let words: Vec<&str> = linked.tokens_text.split(' ').collect();
+    let tilts = |at: usize| is_form(words[at], "tilt");
+    let denies = |at: usize| words[..at].iter().rev().take(2).any(|word| is_listed("no not never without 't dont", word));
+    let (mut denied, mut named) = (false, false);
+    for at in (0..words.len()).filter(|at| tilts(*at)) {
+        if denies(at) { denied = true } else { named = true }
+    }
+    if !denied || named {
+        return;
+    }
+    for step in steps {
+        step.movement = match step.movement {
+            Move::TiltUp => Move::PedestalUp,
+            Move::TiltDown => Move::PedestalDown,
+            movement => movement,
+        };
+    }
+}
+
+/// Shows everything so far where the words of a step mean all of it by number: `widen the lens so all three are in`.
+pub(crate) fn show_all_of_number(linked: &Linked, steps: &mut [Step]) {
+    for nth in 1..steps.len() {
+        let words = linked.texts_in(steps[nth].words.unwrap_or_default());
+        let names = words.iter().any(|word| linked.slot_at(word).is_some());
+        let number = words.windows(2).find_map(|two| match two {
+            ["all", "three"] => Some(3),
+            ["all", "four"] => Some(4),
+            ["them", "both"] => Some(2),
+            _ => None,
+        });
+        let Some(number) = number.filter(|_| !names) else { continue };
+        let mut shown: Vec<u32> = Vec::new();
+        for step in &steps[..nth] {
+            let via = step.via.iter().flat_map(|via| via.objects.iter().copied());
+            for id in step.start.subjects.iter().copied().chain(via).chain(step.end.subjects.iter().copied()) {
+                if !shown.contains(&id) {
+                    shown.push(id);
+                }
+            }
+        }
+        let leaves = matches!(steps[nth].movement, Move::PullOut | Move::ZoomOut | Move::CraneUp | Move::Static);
+        if leaves && shown.len() == number {
+            steps[nth].end.subjects = shown;
+            steps[nth].end.whole = true;
+        }
+    }
+}
+
+/// Joins a push with the dolly zoom on the same thing behind it: `walk towards the plant and the background stretches away`.
+pub(crate) fn join_dolly_zooms(steps: &mut Vec<Step>) {
+    for nth in (1..steps.len()).rev() {
+        let way = match steps[nth].movement {
+            Move::DollyZoomIn => Move::PushIn,
+            Move::DollyZoomOut => Move::PullOut,
+            _ => continue,
+        };
+        let before = &steps[nth - 1];
+        let is_plain = before.amount.is_none() && before.end.size.is_none() && !before.end.whole;
+        let is_same = before.end.subjects == steps[nth].end.subjects || steps[nth].end.subjects.is_empty();
+        let joined = steps[nth].joint_words(before).is_some_and(|[from, to]| to - from < 160);
+        if before.movement == way && is_plain && is_same && joined && before.start.subjects.is_empty() {
+            let before = steps.remove(nth - 1);
+            let step = &mut steps[nth - 1];
+            step.words = step.joint_words(&before);
+            if step.end.subjects.is_empty() {
+                step.end.subjects = before.end.subjects;
+            }
+        }
+    }
+}
