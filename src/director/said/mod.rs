@@ -169,6 +169,8 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     named_moves::travel_without_tilt(linked, &mut direction.program.steps);
     named_moves::show_all_of_number(linked, &mut direction.program.steps);
     named_moves::join_dolly_zooms(&mut direction.program.steps);
+    named_moves::land_where_next_starts(&mut direction.program.steps);
+    named_moves::rise_along_itself(&mut direction.program.steps);
     Ok(())
 }
 

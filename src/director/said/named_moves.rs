@@ -2,7 +2,7 @@
 //! push`, `hold on the mask`, `straight down, no tilt`.
 
 use cinesplat_language::{Linked, is_listed};
-use cinesplat_operator::{Look, Step};
+use cinesplat_operator::{Look, Pass, Step, SubjectPart, Via};
 use cinesplat_trajectory::Move;
 
 use super::briefs::is_camera_verb;
@@ -180,6 +180,36 @@ pub(crate) fn join_dolly_zooms(steps: &mut Vec<Step>) {
             if step.end.subjects.is_empty() {
                 step.end.subjects = before.end.subjects;
             }
+        }
+    }
+}
+
+/// Turns to the part of a thing from which the next move starts: `whip left to the guitar, and tilt up it from the body to the head`
+/// does not land on its middle.
+pub(crate) fn land_where_next_starts(steps: &mut [Step]) {
+    for nth in 1..steps.len() {
+        let next = &steps[nth];
+        let (subjects, part) = (next.start.subjects.clone(), next.start.part);
+        let rises = matches!(next.movement, Move::TiltUp | Move::TiltDown | Move::PedestalUp | Move::PedestalDown);
+        let before = &mut steps[nth - 1];
+        let turns = matches!(before.movement, Move::PanLeft | Move::PanRight | Move::WhipPan);
+        let is_open = before.end.part == SubjectPart::Middle && before.end.size.is_none() && !before.end.whole;
+        if rises && turns && is_open && part != SubjectPart::Middle && before.end.subjects == subjects {
+            before.end.part = part;
+        }
+    }
+}
+
+/// Drops the way along a thing of a rise from its foot to its top, which is that way.
+pub(crate) fn rise_along_itself(steps: &mut [Step]) {
+    for step in steps {
+        let rises = matches!(step.movement, Move::TiltUp | Move::TiltDown | Move::PedestalUp | Move::PedestalDown);
+        let is_own = |via: &Via| {
+            via.how == Pass::Along
+                && (via.objects == step.end.subjects || step.end.subjects.is_empty() && via.objects == step.start.subjects)
+        };
+        if rises && step.via.as_ref().is_some_and(is_own) {
+            step.via = None;
         }
     }
 }

@@ -129,13 +129,13 @@ pub(super) fn dolly_zoom(context: &StepContext) -> Vec<MotionSegment> {
     let lens = if inward { (20.0, 34.0) } else { (40.0, 62.0) };
     let (mut segments, first) = match &context.before {
         Some(before) => context.turned_to(before, target.aim),
-        None => (Vec::new(), context.view(&target, &context.opening_framing(), (0.38, 0.7), lens)),
+        None => (Vec::new(), context.view(&target, &context.opening_framing(), (0.38, 0.76), lens)),
     };
     let distance = first.pose.position.distance(target.aim);
     let tan = (first.fov_y_rad / 2.0).tan();
     // A lone thing swells from close by, which a room behind it does not need.
     let (nearer, farther) =
-        if context.world.is_indoor() { ((0.4, 0.56), (1.8, 2.6)) } else { ((0.46, 0.66), (1.5, 2.3)) };
+        if context.world.is_indoor() { ((0.32, 0.56), (1.8, 3.0)) } else { ((0.46, 0.66), (1.5, 2.3)) };
     let open = lerp(if inward { nearer } else { farther }, context.parameters[6]);
     // The limits of the lens shorten the travel, not the subject.
     let limit_tan = |deg: f64| (deg.to_radians() / 2.0).tan();
