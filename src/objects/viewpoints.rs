@@ -129,14 +129,17 @@ impl<'a> ViewpointSearch<'a> {
 
     /// The coarse picture of a camera.
     pub(crate) fn id_picture(&self, camera: &Camera) -> Result<IdPicture, ObjectsError> {
+        let ids = self.ids(camera)?;
         let camera = coarse(camera);
-        let map = self
-            .renderer
-            .object_ids(&camera, &self.render_settings, &self.thinned.labels)
-            .map_err(|error| failed(&error))?;
         let depths = self.renderer.depth(&camera, &self.render_settings).map_err(|error| failed(&error))?.median;
         let depths = depths.into_iter().map(|depth| if depth.is_nan() { f32::INFINITY } else { depth }).collect();
-        Ok(IdPicture { width: camera.intrinsics.width as usize, ids: map.ids, depths })
+        Ok(IdPicture { width: camera.intrinsics.width as usize, ids, depths })
+    }
+
+    /// The ids of that picture.
+    fn ids(&self, camera: &Camera) -> Result<Vec<u16>, ObjectsError> {
+        let map = self.renderer.object_ids(&coarse(camera), &self.render_settings, &self.thinned.labels);
+        Ok(map.map_err(|error| failed(&error))?.ids)
     }
 
     /// The camera that shows the most objects, with little void and nothing close before the lens; in a room up to
@@ -215,8 +218,8 @@ impl<'a> ViewpointSearch<'a> {
             .rings(12, &CLOSEUP_ELEVATIONS_RAD)
             .map(|away| self.camera_at(object.center + away * distance, object.center, intrinsics));
         let score = |camera: &Camera| {
-            let picture = self.id_picture(camera)?;
-            let seen = picture.ids.iter().filter(|id| ids.contains(id)).count() as f64;
+            let picture = self.ids(camera)?;
+            let seen = picture.iter().filter(|id| ids.contains(id)).count() as f64;
             let away = (camera.pose.position - object.center) / distance;
             let steepness = if away.dot(self.frame.up) > 0.5 { STEEP_WEIGHT } else { 1.0 };
             let inward = 1.0 + INWARD_WEIGHT * away.dot(inward.clamp_length_max(1.0));
@@ -281,8 +284,8 @@ impl<'a> ViewpointSearch<'a> {
 
     /// Pixels of objects, which count more where they are rich in contrast: fronts are.
     fn outside_score(&self, camera: &Camera) -> Result<f64, ObjectsError> {
-        let picture = self.id_picture(camera)?;
-        let seen = picture.ids.iter().filter(|id| **id > 0).count() as f64;
+        let picture = self.ids(camera)?;
+        let seen = picture.iter().filter(|id| **id > 0).count() as f64;
         Ok(seen * (CONTRAST_BASE + self.contrast(camera, &picture, &|id| id > 0)?))
     }
 
@@ -290,12 +293,12 @@ impl<'a> ViewpointSearch<'a> {
     fn contrast(
         &self,
         camera: &Camera,
-        picture: &IdPicture,
+        picture: &[u16],
         is_counted: &dyn Fn(u16) -> bool,
     ) -> Result<f64, ObjectsError> {
         let frame = self.renderer.render(&coarse(camera), &self.render_settings).map_err(|error| failed(&error))?;
         let brightness = |rgb: &[f32]| f64::from(rgb.iter().sum::<f32>().clamp(0.0, 3.0) / 3.0);
-        let values: Vec<f64> = (frame.rgb.chunks_exact(3).zip(&picture.ids))
+        let values: Vec<f64> = (frame.rgb.chunks_exact(3).zip(picture))
             .filter(|(_, id)| is_counted(**id))
             .map(|(rgb, _)| brightness(rgb))
             .collect();

@@ -162,6 +162,9 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     take_said_of_pictures(linked, &mut direction.program.steps);
     looks::roll_back(linked, &mut direction.program.steps);
     take_said_of_moves(linked, direction);
+    named_moves::join_continued(linked, direction);
+    named_moves::pass_listed(linked, direction);
+    named_moves::show_until(linked, &mut direction.program.steps);
     named_moves::move_as_named(linked, &mut direction.program.steps);
     named_moves::rest_as_named(linked, &mut direction.program.steps);
     named_moves::stay_with_subject(linked, &mut direction.program.steps);

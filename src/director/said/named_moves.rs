@@ -7,6 +7,7 @@ use cinesplat_trajectory::Move;
 
 use super::briefs::is_camera_verb;
 use super::directions::is_form;
+use crate::direction::Direction;
 
 /// Words that deny the verb behind them, and how many of the words before may be one.
 const DENIALS: &str = "no not never without 't dont nor instead than of counter";
@@ -210,6 +211,85 @@ pub(crate) fn rise_along_itself(steps: &mut [Step]) {
         };
         if rises && step.via.as_ref().is_some_and(is_own) {
             step.via = None;
+        }
+    }
+}
+
+/// Joins a move with the words behind it that only say from where to where it goes: `tilt up the bookshelf, from the bottom shelf to
+/// the candle on top`.
+pub(crate) fn join_continued(linked: &Linked, direction: &mut Direction) {
+    for nth in (1..direction.program.steps.len()).rev() {
+        let [before, step] = [&direction.program.steps[nth - 1], &direction.program.steps[nth]];
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let lead = words.iter().position(|word| !matches!(*word, "," | ";" | "all" | "right"));
+        let continues = lead.is_some_and(|lead| words[lead] == "from") && words.contains(&"to");
+        let moves = (0..words.len()).any(|at| is_camera_verb(&words, at));
+        let is_same = before.movement == step.movement && before.via.is_none() && !step.cut;
+        let is_open = before.end.size.is_none() && before.amount.is_none();
+        if !continues || moves || !is_same || !is_open || step.start.subjects.is_empty() || before.words == step.words {
+            continue;
+        }
+        let start = if before.start.subjects == step.start.subjects && step.start.part == SubjectPart::Middle {
+            before.start.clone()
+        } else {
+            step.start.clone()
+        };
+        let joined = Step { start, end: step.end.clone(), words: step.joint_words(before), ..before.clone() };
+        direction.join_steps(nth, joined);
+    }
+}
+
+/// Passes, on a slide along something, what the words behind it only list: `slide right along the sideboard: plant, books, radio`.
+pub(crate) fn pass_listed(linked: &Linked, direction: &mut Direction) {
+    let is_bare = |step: &Step| {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let is_name = |word: &&str| is_listed(", . and the then finally", word) || linked.slot_at(word).is_some();
+        let names = words.iter().any(|word| linked.slot_at(word).is_some());
+        names && words.iter().all(|word| is_name(&word)) && step.end.subjects.len() == 1 && step.via.is_none()
+    };
+    let mut nth = 0;
+    while nth < direction.program.steps.len() {
+        let step = &direction.program.steps[nth];
+        let slides = matches!(step.movement, Move::TruckLeft | Move::TruckRight);
+        let is_along = step.via.as_ref().is_some_and(|via| via.how == Pass::Along);
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let lists = words.contains(&":");
+        let listed = direction.program.steps[nth + 1..].iter().take_while(|step| is_bare(step)).count();
+        if slides && is_along && lists && listed > 0 {
+            let last = direction.program.steps[nth + listed].clone();
+            let words = last.joint_words(&direction.program.steps[nth]);
+            for at in (nth + 1..=nth + listed).rev() {
+                direction.remove_step(at);
+            }
+            let step = &mut direction.program.steps[nth];
+            (step.end, step.words) = (last.end, words);
+        }
+        nth += 1;
+    }
+}
+
+/// Words of a picture that something is in.
+const PICTURES: &str = "shot frame picture view";
+
+/// Ends with what a way leads until: `up over the stool, until both easels stand side by side in the shot`.
+pub(crate) fn show_until(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let Some(until) = words.iter().position(|word| is_listed("until till", word)) else { continue };
+        let is_in = |at: &usize| {
+            words[*at] == "in" && words[*at + 1..].iter().take(2).any(|word| is_listed(PICTURES, word))
+        };
+        let Some(end) = (until..words.len()).find(is_in) else { continue };
+        let ids: Vec<u32> = words[until..end].iter().filter_map(|word| linked.slot_at(word)).collect();
+        let shown = linked.expanded(&step.end.subjects);
+        let is_missing = |id: &u32| linked.expanded(&[*id]).iter().any(|id| !shown.contains(id));
+        let opens = matches!(
+            step.movement,
+            Move::CraneUp | Move::PedestalUp | Move::PullOut | Move::ZoomOut | Move::TruckLeft | Move::TruckRight | Move::Follow
+        );
+        if opens && ids.iter().any(is_missing) && step.end.place.is_none() {
+            step.end.subjects = ids;
+            step.end.whole = true;
         }
     }
 }
