@@ -8,7 +8,8 @@ use crate::names::FoundMention;
 /// Verbs that are nouns, too.
 const VERBS: &str = "pan truck zoom tilt track dolly crane boom orbit pedestal whip push pull slide swing arc rack drift glide sweep rise";
 /// Words of their ways.
-const WAYS: &str = "to up down left right back in out across past over along around round into onto toward towards slowly";
+const WAYS: &str =
+    "to up down left right back in out across past over along around round into onto toward towards slowly";
 
 /// Takes a verb off the end of the names that it was taken for a part of.
 pub(crate) fn take_verbs_off(prompt: &str, objects: &[NamedObject], found: &mut [FoundMention]) {

@@ -38,7 +38,9 @@ pub(super) fn vertigo_cost(world: &World, segment: &MotionSegment, states: &[Cam
     let growth = swelling(distance(near), reach) / swelling(distance(far), reach);
     let swollen = ramp(SWELLING, growth);
     let travel = [distance(near), distance(far)];
-    SWOLLEN_COST * swollen + FLAT_COST * flat_frac(world, near, distance(near)) + WEAK_COST * weak_frac(world, near, travel)
+    SWOLLEN_COST * swollen
+        + FLAT_COST * flat_frac(world, near, distance(near))
+        + WEAK_COST * weak_frac(world, near, travel)
 }
 
 /// By how much the near side of a subject, `reach` before its middle, is larger in the picture than its middle.
@@ -59,7 +61,8 @@ fn weak_frac(world: &World, near: &CameraState, [nearer, farther]: [f64; 2]) -> 
 fn background(world: &World, state: &CameraState) -> impl Iterator<Item = f64> {
     let height = 90.0;
     let width = (height * world.aspect).round().max(1.0);
-    let camera = Camera { pose: state.pose, intrinsics: Intrinsics::from_fov_y(width as u32, height as u32, state.fov_y_rad) };
+    let camera =
+        Camera { pose: state.pose, intrinsics: Intrinsics::from_fov_y(width as u32, height as u32, state.fov_y_rad) };
     let at = |i: u32, count: u32| (f64::from(i) + 0.5) / f64::from(count);
     let rays = (0..RAYS.0).flat_map(|column| (0..RAYS.1).map(move |row| (column, row)));
     rays.filter_map(move |(column, row)| {

@@ -13,8 +13,7 @@ use crate::direction::Direction;
 const DENIALS: &str = "no not never without 't dont nor instead than of counter";
 const NUM_BEFORE: usize = 3;
 /// Verbs that say no way.
-const STOPS: [&str; 10] =
-    ["hold", "rest", "pause", "linger", "stop", "start", "begin", "finish", "land", "settle"];
+const STOPS: [&str; 10] = ["hold", "rest", "pause", "linger", "stop", "start", "begin", "finish", "land", "settle"];
 
 /// The move that a verb names and that leaves its side open.
 fn named(word: &str) -> Option<Move> {
@@ -101,7 +100,8 @@ pub(crate) fn face_on_the_way(linked: &Linked, steps: &mut Vec<Step>) {
     for nth in (1..steps.len()).rev() {
         let words = linked.texts_in(steps[nth].words.unwrap_or_default());
         let faces = words.iter().any(|word| is_listed(FACES, word));
-        let is_rest = |word: &&str| is_listed(BETWEEN, word) || is_listed(FACES, word) || linked.slot_at(word).is_some();
+        let is_rest =
+            |word: &&str| is_listed(BETWEEN, word) || is_listed(FACES, word) || linked.slot_at(word).is_some();
         let travels = matches!(steps[nth - 1].movement, Move::Follow | Move::TruckLeft | Move::TruckRight);
         let faced = steps[nth].end.subjects.clone();
         let is_way = steps[nth].movement == Move::Follow || steps[nth].movement == Move::Static;
@@ -116,7 +116,8 @@ pub(crate) fn face_on_the_way(linked: &Linked, steps: &mut Vec<Step>) {
 pub(crate) fn travel_without_tilt(linked: &Linked, steps: &mut [Step]) {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
     let tilts = |at: usize| is_form(words[at], "tilt");
-    let denies = |at: usize| words[..at].iter().rev().take(2).any(|word| is_listed("no not never without 't dont", word));
+    let denies =
+        |at: usize| words[..at].iter().rev().take(2).any(|word| is_listed("no not never without 't dont", word));
     let (mut denied, mut named) = (false, false);
     for at in (0..words.len()).filter(|at| tilts(*at)) {
         if denies(at) { denied = true } else { named = true }
@@ -207,7 +208,8 @@ pub(crate) fn rise_along_itself(steps: &mut [Step]) {
         let rises = matches!(step.movement, Move::TiltUp | Move::TiltDown | Move::PedestalUp | Move::PedestalDown);
         let is_own = |via: &Via| {
             via.how == Pass::Along
-                && (via.objects == step.end.subjects || step.end.subjects.is_empty() && via.objects == step.start.subjects)
+                && (via.objects == step.end.subjects
+                    || step.end.subjects.is_empty() && via.objects == step.start.subjects)
         };
         if rises && step.via.as_ref().is_some_and(is_own) {
             step.via = None;
@@ -276,20 +278,161 @@ pub(crate) fn show_until(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let Some(until) = words.iter().position(|word| is_listed("until till", word)) else { continue };
-        let is_in = |at: &usize| {
-            words[*at] == "in" && words[*at + 1..].iter().take(2).any(|word| is_listed(PICTURES, word))
-        };
+        let is_in =
+            |at: &usize| words[*at] == "in" && words[*at + 1..].iter().take(2).any(|word| is_listed(PICTURES, word));
         let Some(end) = (until..words.len()).find(is_in) else { continue };
         let ids: Vec<u32> = words[until..end].iter().filter_map(|word| linked.slot_at(word)).collect();
         let shown = linked.expanded(&step.end.subjects);
         let is_missing = |id: &u32| linked.expanded(&[*id]).iter().any(|id| !shown.contains(id));
         let opens = matches!(
             step.movement,
-            Move::CraneUp | Move::PedestalUp | Move::PullOut | Move::ZoomOut | Move::TruckLeft | Move::TruckRight | Move::Follow
+            Move::CraneUp
+                | Move::PedestalUp
+                | Move::PullOut
+                | Move::ZoomOut
+                | Move::TruckLeft
+                | Move::TruckRight
+                | Move::Follow
         );
         if opens && ids.iter().any(is_missing) && step.end.place.is_none() {
             step.end.subjects = ids;
             step.end.whole = true;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::{about, direction, linked};
+    use super::*;
+
+    /// Steps of the parts of a text between bars, each about one object.
+    fn read(text: &str, moves: &[(Move, u32)]) -> (Linked, Vec<Step>) {
+        let mut from = 0;
+        let spans = text.split(" | ").map(|part| {
+            let span = [from, from + part.len()];
+            from = span[1] + 1;
+            span
+        });
+        let steps = spans.zip(moves).map(|(span, (movement, id))| about(*movement, &[*id], span)).collect();
+        (linked(&text.replace(" | ", " ")), steps)
+    }
+
+    fn seen(steps: &[Step]) -> Vec<(Move, Vec<u32>)> {
+        steps.iter().map(|step| (step.movement, step.end.subjects.clone())).collect()
+    }
+
+    #[test]
+    fn a_way_whose_words_name_a_slide_or_a_turn_is_one() {
+        let moved = |text: &str| {
+            let (linked, mut steps) = read(text, &[(Move::Follow, 7)]);
+            move_as_named(&linked, &mut steps);
+            steps[0].movement
+        };
+        assert_eq!(moved("from <obj-0> truck to <obj-1>"), Move::TruckRight);
+        assert_eq!(moved("from <obj-0> pan to <obj-1>"), Move::PanRight);
+        assert_eq!(moved("walk to <obj-1> without a pan"), Move::Follow);
+    }
+
+    #[test]
+    fn a_move_that_names_nothing_is_about_what_was_shown_last() {
+        let shown = |text: &str| {
+            let (linked, mut steps) = read(text, &[(Move::PanRight, 7), (Move::PushIn, 5)]);
+            stay_with_subject(&linked, &mut steps);
+            steps[1].end.subjects[0]
+        };
+        assert_eq!(shown("pan right to <obj-1> | then push"), 7);
+        assert_eq!(shown("pan right to <obj-1> | then push in on the first one"), 5);
+        assert_eq!(shown("pan right to <obj-1> | then push in on <obj-0>"), 5);
+    }
+
+    #[test]
+    fn a_rest_is_no_second_circle() {
+        let (linked, mut steps) =
+            read("circle <obj-0> | and hold on <obj-1>", &[(Move::OrbitRight, 5), (Move::OrbitRight, 7)]);
+        rest_as_named(&linked, &mut steps);
+        assert_eq!(seen(&steps), [(Move::OrbitRight, vec![5]), (Move::Static, vec![7])]);
+    }
+
+    #[test]
+    fn what_a_way_faces_is_looked_at() {
+        let (linked, mut steps) =
+            read("go from here to there | in a straight line facing <obj-1>", &[(Move::Follow, 5), (Move::Follow, 7)]);
+        face_on_the_way(&linked, &mut steps);
+        assert_eq!(seen(&steps), [(Move::Follow, vec![5])]);
+        assert_eq!(steps[0].look, Some(Look::At(vec![7])));
+    }
+
+    #[test]
+    fn without_a_tilt_the_camera_travels() {
+        let moved = |text: &str| {
+            let (linked, mut steps) = read(text, &[(Move::TiltDown, 5)]);
+            travel_without_tilt(&linked, &mut steps);
+            steps[0].movement
+        };
+        assert_eq!(moved("the camera goes down itself , not tilt"), Move::PedestalDown);
+        assert_eq!(moved("tilt down , then no tilt"), Move::TiltDown);
+    }
+
+    #[test]
+    fn all_three_are_those_shown() {
+        let moves = [(Move::PedestalUp, 1), (Move::Follow, 2), (Move::ZoomOut, 2)];
+        let (linked, mut steps) = read("rise | carry on | widen the lens so all three are in", &moves);
+        steps[0].start.subjects = vec![3];
+        show_all_of_number(&linked, &mut steps);
+        assert_eq!(steps[2].end.subjects, [3, 1, 2]);
+        assert!(steps[2].end.whole);
+    }
+
+    #[test]
+    fn a_push_and_a_dolly_zoom_on_one_thing_are_one() {
+        let (_, mut steps) =
+            read("walk towards <obj-0> | and the background stretches", &[(Move::PushIn, 5), (Move::DollyZoomIn, 5)]);
+        join_dolly_zooms(&mut steps);
+        assert_eq!(seen(&steps), [(Move::DollyZoomIn, vec![5])]);
+    }
+
+    #[test]
+    fn a_turn_lands_where_the_tilt_behind_it_starts() {
+        let (_, mut steps) = read("whip to <obj-0> | tilt up it", &[(Move::WhipPan, 5), (Move::TiltUp, 5)]);
+        steps[1].start.subjects = vec![5];
+        steps[1].start.part = SubjectPart::Bottom;
+        steps[1].via = Some(Via { how: Pass::Along, objects: vec![5] });
+        land_where_next_starts(&mut steps);
+        rise_along_itself(&mut steps);
+        assert_eq!(steps[0].end.part, SubjectPart::Bottom);
+        assert_eq!(steps[1].via, None);
+    }
+
+    #[test]
+    fn from_and_to_behind_a_move_are_its_own() {
+        let (linked, mut steps) =
+            read("tilt up <obj-0> | , from the bottom to <obj-1>", &[(Move::TiltUp, 5), (Move::TiltUp, 7)]);
+        steps[0].start.subjects = vec![5];
+        steps[0].start.part = SubjectPart::Bottom;
+        steps[1].start.subjects = vec![5];
+        let mut read = direction(steps);
+        join_continued(&linked, &mut read);
+        assert_eq!(seen(&read.program.steps), [(Move::TiltUp, vec![7])]);
+        assert_eq!(read.program.steps[0].start.part, SubjectPart::Bottom);
+    }
+
+    #[test]
+    fn a_slide_passes_what_is_listed_behind_it() {
+        let moves = [(Move::TruckRight, 5), (Move::Follow, 7), (Move::Follow, 5)];
+        let (linked, mut steps) = read("slide right along <obj-0> : <obj-0> , | <obj-1> , | <obj-0> .", &moves);
+        steps[0].via = Some(Via { how: Pass::Along, objects: vec![9] });
+        let mut read = direction(steps);
+        pass_listed(&linked, &mut read);
+        assert_eq!(seen(&read.program.steps), [(Move::TruckRight, vec![5])]);
+    }
+
+    #[test]
+    fn a_way_ends_with_what_it_leads_until() {
+        let (linked, mut steps) = read("rise until both <obj-0> stand side by side in the shot", &[(Move::CraneUp, 9)]);
+        steps[0].end.subjects.clear();
+        show_until(&linked, &mut steps);
+        assert_eq!(steps[0].end.subjects, [5]);
+        assert!(steps[0].end.whole);
     }
 }
