@@ -163,7 +163,7 @@ impl Director {
         point_by_order(prompt, places, &mut found);
         let led = name_pairs(prompt, objects, places, &mut found);
         let prompt = &*blanked(prompt, &led);
-        absorb_places(prompt, objects, &mut found)?;
+        absorb_places(prompt, objects, places, &mut found)?;
         drop_other_bearers(prompt, objects, places, &mut found);
         point_back(prompt, objects, &mut found);
         point_ones(prompt, objects, &mut found);

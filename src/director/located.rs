@@ -4,6 +4,8 @@ use cinesplat_language::{LanguageError, Mention, NamedObject, Word, is_listed, p
 
 use crate::explained::{content, head, is_number, label, said};
 use crate::names::FoundMention;
+use crate::placed::Places;
+use cinesplat_objects::Object;
 
 /// Words that say where a thing is, and words that may stand beside them.
 const WHERE: [&str; 11] =
@@ -46,8 +48,8 @@ const MOVES: &str = "moving drifting going rising gliding sliding flying tilting
     ending finishing starting landing settling looking booming turning coming heading holding arriving hovering";
 
 /// Words that only locate a thing, between it and its place, and words that may stand beside them.
-const LOCATES: &str = "on atop beside near next middle center centre";
-const BESIDE_PLACES: &str = "the a an my our your this that which is are 's sits sitting stands standing stood lying resting placed right just there top in of to";
+const LOCATES: &str = "on atop beside near next middle center centre end edge";
+const BESIDE_PLACES: &str = "at very far other left right the a an my our your this that which is are 's sits sitting stands standing stood lying resting placed right just there top in of to";
 
 /// Whether words between a thing and a place only say where the thing is: `the vase in the middle of the table`.
 fn locates(between: &[Word]) -> bool {
@@ -74,6 +76,7 @@ fn describes(word: &str) -> bool {
 pub(crate) fn absorb_places(
     prompt: &str,
     objects: &[NamedObject],
+    places: Places<'_>,
     found: &mut Vec<FoundMention>,
 ) -> Result<(), LanguageError> {
     let mut nth = 1;
@@ -105,6 +108,7 @@ pub(crate) fn absorb_places(
             || is_one_again(prompt, thing, place, &between)
             || says_where && is_loose
             || locates(&between) && is_named(thing, place)
+            || hangs_over(places, thing, place, &between)
             || has_part(prompt, objects, thing, place, &between)?
         {
             found[nth - 1].mention.bytes[1] = place.bytes[1];
@@ -114,6 +118,28 @@ pub(crate) fn absorb_places(
         }
     }
     Ok(())
+}
+
+/// Least share of a thing's height between it and the place over which it hangs, and most beside that place, over its width.
+const OVER_FRAC: f64 = -0.2;
+const ASIDE_FRAC: f64 = 0.5;
+
+/// Whether the first thing hangs over the second one, as the words between them say: `the tool wall over the workbench`.
+fn hangs_over(places: Places<'_>, thing: &Mention, place: &Mention, between: &[Word]) -> bool {
+    let over = between.first().is_some_and(|word| is_listed("over above", &word.text))
+        && between[1..].iter().all(|word| is_listed("the a an my our your", &word.text));
+    let find = |mention: &Mention| {
+        let [id] = mention.ids[..] else { return None };
+        places.objects.iter().find(|object| object.id == id)
+    };
+    let (Some(thing), Some(place)) = (find(thing), find(place)) else { return false };
+    let heights = |object: &Object| {
+        let heights = object.corners().map(|corner| corner.dot(places.up));
+        [heights.iter().copied().fold(f64::INFINITY, f64::min), heights.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
+    };
+    let (own, other) = (heights(thing), heights(place));
+    let apart = (thing.center - place.center).reject_from(places.up.normalize_or_zero()).length();
+    over && own[0] - other[1] > OVER_FRAC * (own[1] - own[0]) && apart < ASIDE_FRAC * (thing.radius() + place.radius())
 }
 
 /// Whether the second mention is only a part of the first one, and no word for what it was taken for: `the plate with the yellow
@@ -175,7 +201,7 @@ mod tests {
                 FoundMention { mention, probability: 1.0, nearest: Vec::new() }
             };
             let mut found: Vec<FoundMention> = (1..).zip(mentions).map(mention).collect();
-            absorb_places(prompt, &objects, &mut found).unwrap();
+            absorb_places(prompt, &objects, Places { objects: &[], up: glam::DVec3::Y }, &mut found).unwrap();
             found.len()
         };
         assert_eq!(num("to the plate with the yellow rim", ["the plate", "the yellow rim"]), 1);

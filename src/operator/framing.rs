@@ -38,10 +38,15 @@ impl Target {
             first.corners.clone()
         };
         let aim = match framing.place {
-            _ if joint => middle(&corners),
+            _ if joint => {
+                let hung = subjects.iter().map(|subject| hung_shift(world, subject)).fold(0.0, f64::min);
+                middle(&corners) + world.frame.up * hung
+            }
             // A stated place is that of the subject's center.
             Some(_) if framing.part == SubjectPart::Middle => first.center,
-            _ if framing.part == SubjectPart::Middle && !overflows(framing) => first.center,
+            _ if framing.part == SubjectPart::Middle && !overflows(framing) => {
+                first.center + world.frame.up * hung_shift(world, first)
+            }
             _ => part_point(world, first, framing.part),
         };
         let radius = corners.iter().map(|c| c.distance(aim)).fold(0.0, f64::max);
@@ -110,6 +115,17 @@ fn part_point(world: &World, subject: &Subject, part: SubjectPart) -> DVec3 {
 /// How far the middle of a subject's matter is below the middle of its box, over half its height, from which on it is its body
 /// that is looked at: that of a radio under its antenna.
 const BODY_BELOW: f64 = 0.15;
+
+/// The same from which on it hangs on something thin, and share of the way down to it by which it is aimed lower: a pendant lamp is
+/// its shade.
+const HUNG_BELOW: f64 = 0.3;
+const HUNG_SHARE: f64 = 0.6;
+
+/// Height of the aim of a subject that hangs on a cord above its middle; 0 of any other one.
+fn hung_shift(world: &World, subject: &Subject) -> f64 {
+    let body = world.frame.height(subject.body - subject.center);
+    if body < -HUNG_BELOW * subject.reach(world.frame.up) { HUNG_SHARE * body } else { 0.0 }
+}
 
 /// Height of a subject's aim above its middle.
 fn upper_aim(world: &World, subject: &Subject) -> f64 {

@@ -124,7 +124,7 @@ fn is_one(words: &str) -> bool {
 
 /// Whether a noun is one of several things. A canvas is one.
 fn is_plural(noun: &Word) -> bool {
-    noun.stem != noun.text && noun.text != "canvas"
+    noun.stem != noun.text && noun.text != "canvas" || is_listed("cacti people children men women mice geese feet", &noun.text)
 }
 
 /// All things of the kind of a mention.
@@ -190,7 +190,9 @@ fn placed(
     if !is_plural && says_floor(prompt, &found[nth].mention) {
         return lowest(places, alike).map(|id| vec![id]);
     }
-    let behind = placed_behind(prompt, found, nth).or_else(|| placed_later(prompt, objects, found, nth));
+    let behind = placed_behind(prompt, found, nth)
+        .or_else(|| placed_later(prompt, objects, found, nth))
+        .or_else(|| placed_with(prompt, found, nth));
     let Some((relation, others)) = behind else {
         let in_corner = !is_plural && says_corner(prompt, &found[nth].mention);
         return in_corner.then(|| cornermost(places, alike)).flatten().map(|id| vec![id]);
@@ -218,6 +220,7 @@ fn placed(
         (true, None) if matches!(relation, Relation::Under | Relation::Above) => {
             fits.iter().filter(|(misfit, _, width)| *misfit < ASIDE * width).map(|fit| fit.1).collect()
         }
+        (true, None) if relation == Relation::On => there,
         (true, None) => return None,
     };
     ids.sort_unstable();
@@ -335,6 +338,15 @@ fn placed_behind(prompt: &str, found: &[FoundMention], nth: usize) -> Option<(Re
     }
     let before = nth.checked_sub(1).and_then(|before| found.get(before))?;
     relation_to_pronoun(prompt, end).map(|relation| (relation, before.mention.ids.clone()))
+}
+
+/// The thing before a mention that has it: `the coffee table with the books`.
+fn placed_with(prompt: &str, found: &[FoundMention], nth: usize) -> Option<(Relation, Vec<u32>)> {
+    let before = &found.get(nth.checked_sub(1)?)?.mention;
+    let between = tokenize(prompt.get(before.bytes[1]..found[nth].mention.bytes[0])?);
+    let has = between.first().is_some_and(|word| word.text == "with")
+        && between[1..].iter().all(|word| is_listed("the its all a an", &word.text));
+    (has && matches!(before.ids[..], [_])).then(|| (Relation::On, before.ids.clone()))
 }
 
 /// What a later mention places a thing by: `the plant in the corner .. the clock on the wall above it`. The other thing is

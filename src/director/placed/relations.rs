@@ -34,6 +34,9 @@ pub(super) fn relation_of(words: &[Word]) -> Option<Relation> {
     if words.first().is_some_and(|word| word.text == "of") && words[1..].iter().all(|word| word.text == "the") {
         return Some(Relation::On);
     }
+    if is_end_of(words) {
+        return Some(Relation::On);
+    }
     let mut relation = None;
     for word in words.iter().map(text) {
         let own = match () {
@@ -50,6 +53,17 @@ pub(super) fn relation_of(words: &[Word]) -> Option<Relation> {
         relation = own.or(relation);
     }
     relation.filter(|_| words.len() <= MAX_BETWEEN)
+}
+
+/// Words of an end of a thing.
+const ENDS: &str = "at on the very far near other left right front back our your my its a";
+
+/// Whether words between two things say that one is at an end of the other: `the candle at the end of the mantel`.
+fn is_end_of(words: &[Word]) -> bool {
+    let of = words.iter().position(|word| word.text == "of");
+    let Some(of) = of.filter(|of| *of > 1 && is_listed("end edge corner", &words[of - 1].text)) else { return false };
+    is_listed("at on", &words[0].text)
+        && words[..of - 1].iter().chain(&words[of + 1..]).all(|word| is_listed(ENDS, &word.text))
 }
 
 /// The relation that the words from a byte on say to a pronoun: `on the wall above it`.

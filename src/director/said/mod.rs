@@ -173,6 +173,8 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     named_moves::show_all_of_number(linked, &mut direction.program.steps);
     named_moves::join_dolly_zooms(&mut direction.program.steps);
     named_moves::land_where_next_starts(&mut direction.program.steps);
+    named_moves::roll_on_the_spot(linked, direction);
+    named_moves::end_on_both(linked, &mut direction.program.steps);
     named_moves::rise_along_itself(&mut direction.program.steps);
     Ok(())
 }
@@ -301,6 +303,7 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     places::leave_from(linked, direction);
     entries::come_in_at_doors(linked, objects, direction);
     specified::skim_tops(linked, objects, &mut direction.program.steps);
+    specified::slide_along_rows(objects, &mut direction.program.steps);
     repeats::drop_restated(direction);
     encores::repeat_all(linked, direction);
     meanwhile::sway_to_each(linked, direction);

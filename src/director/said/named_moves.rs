@@ -2,7 +2,7 @@
 //! push`, `hold on the mask`, `straight down, no tilt`.
 
 use cinesplat_language::{Linked, is_listed};
-use cinesplat_operator::{Look, Pass, Step, SubjectPart, Via};
+use cinesplat_operator::{Framing, Look, Pass, Step, SubjectPart, SubjectSide, Via};
 use cinesplat_trajectory::Move;
 
 use super::briefs::is_camera_verb;
@@ -83,7 +83,9 @@ pub(crate) fn rest_as_named(linked: &Linked, steps: &mut [Step]) {
             && words.get(lead + 1) == Some(&"on")
             && words.get(lead + 2..).is_some_and(|rest| rest.iter().take(2).any(|word| linked.slot_at(word).is_some()));
         let moves = (lead + 1..words.len()).any(|at| is_camera_verb(&words, at));
-        let repeats = steps[nth].movement == steps[nth - 1].movement;
+        // A turn to a thing on which it then rests is a turn.
+        let repeats = steps[nth].movement.is_circular()
+            && (steps[nth].movement == steps[nth - 1].movement || nth > 1 && steps[nth].movement == steps[nth - 2].movement);
         if rests && !moves && repeats {
             let (end, words) = (steps[nth].end.clone(), steps[nth].words);
             steps[nth] = Step { end, words, duration_secs: steps[nth].duration_secs, ..Step::of(Move::Static) };
@@ -211,7 +213,12 @@ pub(crate) fn rise_along_itself(steps: &mut [Step]) {
                 && (via.objects == step.end.subjects
                     || step.end.subjects.is_empty() && via.objects == step.start.subjects)
         };
-        if rises && step.via.as_ref().is_some_and(is_own) {
+        // Who starts behind a bench has passed behind it.
+        let is_start = |via: &Via| via.how == Pass::Behind && via.objects == step.start.subjects;
+        let starts_behind = step.start.side == Some(SubjectSide::FromBack);
+        let is_said =
+            |via: &Via| rises && is_own(via) || starts_behind && step.movement != Move::Reveal && is_start(via);
+        if step.via.as_ref().is_some_and(is_said) {
             step.via = None;
         }
     }
@@ -296,6 +303,40 @@ pub(crate) fn show_until(linked: &Linked, steps: &mut [Step]) {
         );
         if opens && ids.iter().any(is_missing) && step.end.place.is_none() {
             step.end.subjects = ids;
+            step.end.whole = true;
+        }
+    }
+}
+
+/// Rolls the picture that the step before only shows, where both are about the same: nothing else moves.
+pub(crate) fn roll_on_the_spot(linked: &Linked, direction: &mut Direction) {
+    for nth in (1..direction.program.steps.len()).rev() {
+        let [before, step] = [&direction.program.steps[nth - 1], &direction.program.steps[nth]];
+        let shown = linked.expanded(&before.end.subjects);
+        let own = linked.expanded(&step.end.subjects);
+        let plain = Framing { subjects: step.end.subjects.clone(), ..Framing::default() };
+        let rolls = matches!(step.movement, Move::RollCw | Move::RollCcw) && step.start == Framing::default();
+        let is_same = step.end == plain && !own.is_empty() && own.iter().all(|id| shown.contains(id));
+        let rest = Step { end: before.end.clone(), words: before.words, speed: before.speed, ..Step::of(Move::Static) };
+        if rolls && is_same && *before == rest {
+            let joined = Step { end: before.end.clone(), words: step.joint_words(before), ..step.clone() };
+            direction.join_steps(nth, joined);
+        }
+    }
+}
+
+/// Ends with both of two things that the words of a turn or a way call by their number: `tilt up to the two lamps`.
+pub(crate) fn end_on_both(linked: &Linked, steps: &mut [Step]) {
+    for step in steps {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let says = words.iter().any(|word| is_listed("both two pair", word));
+        let ends_on_two = linked.expanded(&step.end.subjects).len() == 2;
+        let turns = matches!(
+            step.movement,
+            Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown | Move::WhipPan | Move::Static
+        );
+        let is_open = step.end.size.is_none() && step.end.place.is_none() && step.end.part == SubjectPart::Middle;
+        if says && ends_on_two && turns && is_open {
             step.end.whole = true;
         }
     }

@@ -41,8 +41,8 @@ const ENDS: [&str; 7] = ["end", "finish", "wind", "get", "come", "land", "close"
 /// Whether words end nearer than they begin: `arc to the right and end up nearer`.
 fn ends_nearer(words: &[&str]) -> bool {
     (1..words.len()).any(|at| {
-        let verb = at - 1 - usize::from(at > 1 && matches!(words[at - 1], "up" | "a"));
-        matches!(words[at], "closer" | "nearer") && ENDS.iter().any(|end| is_form(words[verb], end))
+        let verb = words[..at].iter().rev().find(|word| !is_listed("up a bit little slightly ever gradually slowly", word));
+        matches!(words[at], "closer" | "nearer") && verb.is_some_and(|verb| ENDS.iter().any(|end| is_form(verb, end)))
     })
 }
 

@@ -170,6 +170,36 @@ pub(crate) fn rise_to_overhead(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Fewest things of a row, and most by which they are out of its line, over its length.
+const LEAST_ROW: usize = 2;
+const MOST_ASIDE: f64 = 0.15;
+
+/// Slides from one end to the other of a row of things that it passes: `past the three pictures over the sofa`.
+pub(crate) fn slide_along_rows(objects: &[Object], steps: &mut [Step]) {
+    for step in steps {
+        let slides = matches!(step.movement, Move::TruckLeft | Move::TruckRight);
+        // Which end is the right one depends on where the camera stands.
+        let is_open =
+            step.either_way && step.start.subjects.is_empty() && step.end.subjects.is_empty() && step.amount.is_none();
+        let Some(via) = step.via.as_ref().filter(|via| slides && is_open && via.how == Pass::Past) else { continue };
+        let row: Vec<&Object> =
+            via.objects.iter().filter_map(|id| objects.iter().find(|object| object.id == *id)).collect();
+        if row.len() < LEAST_ROW || row.len() != via.objects.len() {
+            continue;
+        }
+        let pairs = row.iter().flat_map(|a| row.iter().map(move |b| (*a, *b)));
+        let apart = |(a, b): &(&Object, &Object)| a.center.distance(b.center);
+        let Some((first, last)) = pairs.max_by(|a, b| apart(a).total_cmp(&apart(b))) else { continue };
+        let way = last.center - first.center;
+        let aside = |object: &&Object| (object.center - first.center).reject_from(way).length();
+        // Things that stand apart are passed as they come.
+        if way.length() > 0.0 && row.iter().map(aside).fold(0.0, f64::max) < MOST_ASIDE * way.length() {
+            (step.start.subjects, step.end.subjects) = (vec![first.id], vec![last.id]);
+            step.via = None;
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::fixture::linked;
