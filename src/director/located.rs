@@ -135,7 +135,10 @@ fn hangs_over(places: Places<'_>, thing: &Mention, place: &Mention, between: &[W
     let (Some(thing), Some(place)) = (find(thing), find(place)) else { return false };
     let heights = |object: &Object| {
         let heights = object.corners().map(|corner| corner.dot(places.up));
-        [heights.iter().copied().fold(f64::INFINITY, f64::min), heights.iter().copied().fold(f64::NEG_INFINITY, f64::max)]
+        [
+            heights.iter().copied().fold(f64::INFINITY, f64::min),
+            heights.iter().copied().fold(f64::NEG_INFINITY, f64::max),
+        ]
     };
     let (own, other) = (heights(thing), heights(place));
     let apart = (thing.center - place.center).reject_from(places.up.normalize_or_zero()).length();
@@ -208,5 +211,25 @@ mod tests {
         assert_eq!(num("to the plate with the yellow mug", ["the plate", "the yellow mug"]), 2);
         assert_eq!(num("show the plate on the floor, the yellow one", ["the plate", "the yellow one"]), 1);
         assert_eq!(num("show the plate, the other one", ["the plate", "the other one"]), 2);
+    }
+
+    #[test]
+    fn a_thing_that_hangs_over_a_place_is_one_thing() {
+        let at = |id, y: f64| Object::from_box(id, "", glam::DVec3::new(0.0, y, 0.0), glam::DVec3::splat(0.4));
+        let hung = |prompt: &str, wall_height: f64| {
+            let objects = [at(1, wall_height), at(2, 0.4)];
+            let mention = |(id, words): (u32, &str)| {
+                let start = prompt.find(words).unwrap();
+                let mention = Mention { bytes: [start, start + words.len()], ids: vec![id] };
+                FoundMention { mention, probability: 1.0, nearest: Vec::new() }
+            };
+            let mut found: Vec<FoundMention> = (1..).zip(["the tool wall", "the bench"]).map(mention).collect();
+            let places = Places { objects: &objects, up: glam::DVec3::Y };
+            absorb_places(prompt, &labelled(&["tool wall", "bench"]), places, &mut found).unwrap();
+            found.len()
+        };
+        assert_eq!(hung("along the tool wall over the bench", 1.7), 1);
+        assert_eq!(hung("along the tool wall over the bench", 0.4), 2);
+        assert_eq!(hung("along the tool wall , over the bench", 1.7), 2);
     }
 }

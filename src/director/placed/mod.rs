@@ -124,7 +124,8 @@ fn is_one(words: &str) -> bool {
 
 /// Whether a noun is one of several things. A canvas is one.
 fn is_plural(noun: &Word) -> bool {
-    noun.stem != noun.text && noun.text != "canvas" || is_listed("cacti people children men women mice geese feet", &noun.text)
+    noun.stem != noun.text && noun.text != "canvas"
+        || is_listed("cacti people children men women mice geese feet", &noun.text)
 }
 
 /// All things of the kind of a mention.
@@ -451,6 +452,32 @@ mod tests {
         let mut found = vec![FoundMention { mention, probability: 1.0, nearest: Vec::new() }];
         point_by_places(on, &names, Places { objects: &[], up: DVec3::Y }, &mut found);
         assert_eq!(found[0].mention.ids, [2]);
+    }
+
+    #[test]
+    fn a_thing_at_the_end_of_another_or_had_by_it_is_on_it() {
+        let at = |id, label: &str, [x, y, z]: [f64; 3], half: f64| {
+            Object::from_box(id, label, DVec3::new(x, y, z), DVec3::splat(half))
+        };
+        let objects = [
+            at(1, "coffee table", [0.0, 0.2, 0.0], 0.2),
+            at(2, "books 1", [0.1, 0.45, 0.0], 0.05),
+            at(3, "books 2", [-0.1, 0.45, 0.0], 0.05),
+            at(4, "books 3", [2.0, 1.2, 2.0], 0.05),
+            at(5, "fireplace", [3.0, 0.5, 0.0], 0.5),
+            at(6, "candle 1", [0.0, 0.45, 0.1], 0.05),
+            at(7, "candle 2", [3.3, 1.05, 0.0], 0.05),
+        ];
+        let pointed = |prompt: &str, mentions: &[(&str, &[u32])]| pointed_among(&objects, prompt, mentions);
+        let ids =
+            pointed("the coffee table with the books on it", &[("the coffee table", &[1]), ("the books", &[2, 3, 4])]);
+        assert_eq!(ids, [vec![1], vec![2, 3]]);
+        let ids =
+            pointed("the candle at the far end of the fireplace", &[("the candle", &[6]), ("the fireplace", &[5])]);
+        assert_eq!(ids, [[7]]);
+        let ids =
+            pointed("the candle at the end , then the fireplace", &[("the candle", &[6]), ("the fireplace", &[5])]);
+        assert_eq!(ids, [[6], [5]]);
     }
 
     #[test]

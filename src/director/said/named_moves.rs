@@ -85,7 +85,8 @@ pub(crate) fn rest_as_named(linked: &Linked, steps: &mut [Step]) {
         let moves = (lead + 1..words.len()).any(|at| is_camera_verb(&words, at));
         // A turn to a thing on which it then rests is a turn.
         let repeats = steps[nth].movement.is_circular()
-            && (steps[nth].movement == steps[nth - 1].movement || nth > 1 && steps[nth].movement == steps[nth - 2].movement);
+            && (steps[nth].movement == steps[nth - 1].movement
+                || nth > 1 && steps[nth].movement == steps[nth - 2].movement);
         if rests && !moves && repeats {
             let (end, words) = (steps[nth].end.clone(), steps[nth].words);
             steps[nth] = Step { end, words, duration_secs: steps[nth].duration_secs, ..Step::of(Move::Static) };
@@ -443,6 +444,29 @@ mod tests {
         rise_along_itself(&mut steps);
         assert_eq!(steps[0].end.part, SubjectPart::Bottom);
         assert_eq!(steps[1].via, None);
+    }
+
+    #[test]
+    fn a_roll_of_the_picture_before_is_one_picture() {
+        let (linked, mut steps) =
+            read("top shot of <obj-0> | let the camera roll", &[(Move::Static, 5), (Move::RollCw, 5)]);
+        steps[0].end.whole = true;
+        let mut read = direction(steps);
+        roll_on_the_spot(&linked, &mut read);
+        assert_eq!(seen(&read.program.steps), [(Move::RollCw, vec![5])]);
+        assert!(read.program.steps[0].end.whole);
+    }
+
+    #[test]
+    fn both_things_that_a_turn_ends_on_are_whole() {
+        let whole = |text: &str| {
+            let (linked, mut steps) = read(text, &[(Move::TiltUp, 5)]);
+            steps[0].end.subjects.push(7);
+            end_on_both(&linked, &mut steps);
+            steps[0].end.whole
+        };
+        assert!(whole("tilt up to the two lamps"));
+        assert!(!whole("tilt up to the lamps"));
     }
 
     #[test]

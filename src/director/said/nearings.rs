@@ -41,7 +41,8 @@ const ENDS: [&str; 7] = ["end", "finish", "wind", "get", "come", "land", "close"
 /// Whether words end nearer than they begin: `arc to the right and end up nearer`.
 fn ends_nearer(words: &[&str]) -> bool {
     (1..words.len()).any(|at| {
-        let verb = words[..at].iter().rev().find(|word| !is_listed("up a bit little slightly ever gradually slowly", word));
+        let verb =
+            words[..at].iter().rev().find(|word| !is_listed("up a bit little slightly ever gradually slowly", word));
         matches!(words[at], "closer" | "nearer") && verb.is_some_and(|verb| ENDS.iter().any(|end| is_form(verb, end)))
     })
 }
@@ -111,6 +112,7 @@ mod tests {
         let text = "arc left around <obj-0> , then push in <qty-0> closer";
         assert_eq!(read(text, text.find(',').unwrap(), Some(Move::PushIn)).len(), 2);
         assert!(ends_nearer(&["arc", "right", "and", "end", "up", "nearer"]));
+        assert!(ends_nearer(&["all", "round", "it", ",", "slowly", "getting", "a", "bit", "nearer"]));
         assert!(!ends_nearer(&["arc", "right", "around", "the", "closer", "chair"]));
         assert!(read("arc left <qty-0> of the way around <obj-0>", 0, None)[0].with.is_empty());
     }

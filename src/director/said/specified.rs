@@ -223,6 +223,23 @@ mod tests {
     }
 
     #[test]
+    fn a_slide_past_a_row_goes_from_one_end_to_the_other() {
+        let at = |id, x: f64, z: f64| Object::from_box(id, "", glam::DVec3::new(x, 1.6, z), glam::DVec3::splat(0.2));
+        let slid = |objects: &[Object], either_way: bool| {
+            let via = Via { how: Pass::Past, objects: objects.iter().map(|object| object.id).collect() };
+            let mut steps = [Step { via: Some(via), either_way, ..Step::of(Move::TruckRight) }];
+            slide_along_rows(objects, &mut steps);
+            [steps[0].start.subjects.clone(), steps[0].end.subjects.clone()].concat()
+        };
+        let row = [at(1, 0.0, 0.0), at(2, -0.6, 0.0), at(3, 0.6, 0.0)];
+        let mut ends = slid(&row, true);
+        ends.sort_unstable();
+        assert_eq!(ends, [2, 3]);
+        assert!(slid(&row, false).is_empty(), "which end is the right one depends on where the camera stands");
+        assert!(slid(&[at(1, 0.0, 0.0), at(2, -0.6, 1.0), at(3, 0.6, 0.0)], true).is_empty());
+    }
+
+    #[test]
     fn who_skims_a_table_does_not_go_over_it() {
         let skimmed = |text: &str| {
             let via = Some(Via { how: Pass::Over, objects: vec![7] });

@@ -224,7 +224,10 @@ fn is_wish(text: &Text<'_>, linked: &Linked) -> bool {
     let ways = Senses::named(&WAY_SENSES).unwrap_or_default();
     let senses = linked.senses().unwrap_or_default();
     let has_way = |at: usize| {
-        senses.get(at).is_some_and(|senses| senses.overlaps(ways)) && !is_object(words[at]) && !text.is_likeness(at)
+        // `Where she's going to stand`, `so that it loops`.
+        let is_told = words[..at].iter().rev().take(6).any(|word| *word == "where") || is_form(words[at], "loop");
+        let is_way = senses.get(at).is_some_and(|senses| senses.overlaps(ways));
+        is_way && !is_told && !is_object(words[at]) && !text.is_likeness(at)
     };
     words.len() >= FEWEST_WORDS && !rests && !(0..words.len()).any(|at| says(at) || has_way(at))
 }
@@ -259,6 +262,9 @@ mod tests {
             "people should be hungry . <obj-0> and <obj-1> , one continuous move if you can , end with <obj-2>"
         ));
         assert!(!wish("open on <obj-0> and stay there . then ease back and up until <obj-1> and <obj-2> are all in"));
+        assert!(!wish(
+            "hey can you get <obj-0> , well just go round it whichever way , then go wide so we see its in the shop"
+        ));
         assert!(!wish("a wide shot of the room first , then <obj-0> and at last <obj-1> , please"));
         assert!(wish("people buy it for the hair , so get in amongst those long leaves . leave them with <obj-0>"));
         assert!(!wish("the film begins at <obj-0> and from there it goes to <obj-1> , which must be seen whole"));
