@@ -2,11 +2,11 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use cinesplat::director::SceneContext;
-use cinesplat::language::{EffectMention, NamedObject, QuantityKind, program_to_notation};
+use cinesplat::language::{EffectMention, Linked, NamedObject, QuantityKind, program_to_notation};
 use cinesplat::lens::other_means;
 use cinesplat::objects::{self, Object, ObjectSet};
 use cinesplat::operator::Program;
-use cinesplat::pipeline::{self, Reading};
+use cinesplat::pipeline::{self, Interpreter, Reading};
 use glam::DVec3;
 
 use serde_json::{Value, json};
@@ -56,10 +56,7 @@ impl Args {
             names = named.collect();
             linked = director.link(&self.prompt, &names)?;
         }
-        let objects: Vec<Object> = names.iter().enumerate().map(|(idx, name)| placeholder(idx, name)).collect();
-        let scene =
-            SceneContext { objects: &objects, up: DVec3::Y, center: DVec3::ZERO, size: objects.len() as f64 + 2.0 };
-        let reading = pipeline::read(&self.prompt, linked, &interpreter, &scene)?;
+        let (reading, objects) = read_linked(&interpreter, &self.prompt, linked, &names)?;
         if self.json {
             return console::data(&format!("{:#}\n", document(&self.prompt, &reading, &names)));
         }
@@ -77,6 +74,19 @@ impl Args {
         let objects = objects::read_boxes(path)?;
         Ok(objects.into_iter().map(|object| NamedObject { id: object.id, label: object.label }).collect())
     }
+}
+
+/// Reads a prompt about things of which only the names are known, and the boxes that stand for them.
+pub(super) fn read_linked(
+    interpreter: &Interpreter,
+    prompt: &str,
+    linked: Linked,
+    names: &[NamedObject],
+) -> Result<(Reading, Vec<Object>), Failure> {
+    let objects: Vec<Object> = names.iter().enumerate().map(|(idx, name)| placeholder(idx, name)).collect();
+    let scene = SceneContext { objects: &objects, up: DVec3::Y, center: DVec3::ZERO, size: objects.len() as f64 + 2.0 };
+    let reading = pipeline::read(prompt, linked, interpreter, &scene)?;
+    Ok((reading, objects))
 }
 
 /// A box for an object of which only the name is known.

@@ -100,3 +100,27 @@ fn dictated_marks_are_no_words() {
     let unused: Vec<&str> = read["unused_words"].as_array().unwrap().iter().filter_map(Value::as_str).collect();
     assert!(unused.iter().all(|word| word.len() > 1), "{unused:?}");
 }
+
+#[test]
+fn bench_readings_counts_the_sentences_that_are_read_as_meant() {
+    let folder = tempfile::tempdir().unwrap();
+    let line = |id: &str, prompt: &str, moves: &str, thing: u32| {
+        let things = r#""things":["sofa","floor lamp"],"means":"as said""#;
+        let steps = format!(r#"[{{"moves":[{moves}],"objs":[{thing}]}}]"#);
+        format!(r#"{{"id":"{id}","prompt":"{prompt}",{things},"steps":{steps}}}"#)
+    };
+    let sentences = [
+        line("a", "push in on the couch", r#""push-in","follow""#, 1),
+        line("b", "orbit the floor lamp to the left", r#""orbit-left""#, 2),
+        line("c", "tilt up the floor lamp", r#""tilt-up""#, 1),
+    ];
+    std::fs::write(folder.path().join("s.jsonl"), sentences.join("\n")).unwrap();
+    let table = data(folder.path(), &["bench", "readings", "s.jsonl"]);
+    assert_eq!(table, "file,right,sentences,percent\ns.jsonl,2,3,66.7\n");
+    assert!(
+        answer(folder.path(), &["bench", "readings", "s.jsonl", "--misses"]).contains("c: \"tilt up the floor lamp\"")
+    );
+    std::fs::write(folder.path().join("bad.jsonl"), line("d", "pan", r#""wander""#, 1)).unwrap();
+    let error = answer(folder.path(), &["bench", "readings", "bad.jsonl"]);
+    assert!(error.contains("bad.jsonl: line 1") && error.contains("there is no move \"wander\""), "{error}");
+}

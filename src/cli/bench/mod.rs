@@ -9,6 +9,7 @@ mod lens;
 mod objects;
 mod operator;
 mod promises;
+mod readings;
 mod render;
 mod scaling;
 mod scenes;
@@ -49,6 +50,7 @@ enum Benchmark {
     Up(up::Args),
     Operator(operator::Args),
     Critic(critic::Args),
+    Readings(readings::Args),
     #[cfg(feature = "training")]
     Director(director::Args),
 }
@@ -66,6 +68,7 @@ impl Args {
             Benchmark::Up(args) => args.run(),
             Benchmark::Operator(args) => args.run(),
             Benchmark::Critic(args) => args.run(),
+            Benchmark::Readings(args) => args.run(),
             #[cfg(feature = "training")]
             Benchmark::Director(args) => args.run(),
         }

@@ -1,0 +1,186 @@
+//! `bench readings`: how many sentences are read as the moves, and about the things, that their writers mean.
+
+use std::fmt::Write as _;
+use std::path::{Path, PathBuf};
+
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer};
+
+use crate::cli::console;
+use crate::cli::failure::{Exit, Failure};
+use crate::cli::model_args::ModelArgs;
+use crate::cli::outputs;
+use crate::cli::read::read_linked;
+use cinesplat::language::{NamedObject, program_to_notation};
+use cinesplat::operator::{Look, Program, Step};
+use cinesplat::pipeline::Interpreter;
+use cinesplat::trajectory::Move;
+
+/// Measure how many sentences are read as the moves that their writers mean
+#[derive(Debug, clap::Args)]
+#[command(after_help = "\
+Examples:
+  cinesplat bench readings prompts/outsiders/*.jsonl
+  cinesplat bench readings prompts/outsiders/mixed.jsonl --misses
+A line of a file is a sentence: {\"id\", \"things\": [names], \"prompt\", \"means\", \"steps\": [{\"moves\": [names], \"objs\": [numbers of
+things, from 1], \"optional\"}]}. A sentence is read right where its steps are those, in order: each has one of the moves and is about all of
+the things. A picture at rest more is no error. Amounts, sizes, angles and speeds are not compared.")]
+pub(super) struct Args {
+    /// Files of sentences
+    #[arg(value_name = "SENTENCES.JSONL", required = true)]
+    files: Vec<PathBuf>,
+    #[command(flatten)]
+    models: ModelArgs,
+    /// Print every sentence that is read otherwise
+    #[arg(long)]
+    misses: bool,
+}
+
+/// A sentence with what it means.
+#[derive(Debug, Deserialize)]
+struct Sentence {
+    id: String,
+    things: Vec<String>,
+    prompt: String,
+    means: String,
+    steps: Vec<WantedStep>,
+}
+
+/// A step that a sentence asks for.
+#[derive(Debug, Deserialize)]
+struct WantedStep {
+    /// Moves, one of which it is.
+    #[serde(deserialize_with = "moves")]
+    moves: Vec<Move>,
+    /// Ids of the things that it ends on, starts from, passes or looks at.
+    #[serde(default)]
+    objs: Vec<u32>,
+    /// A reading may lack it.
+    #[serde(default)]
+    optional: bool,
+}
+
+fn moves<'de, D: Deserializer<'de>>(text: D) -> Result<Vec<Move>, D::Error> {
+    let named = |name: &String| name.parse().map_err(|_| D::Error::custom(format!("there is no move {name:?}")));
+    Vec::<String>::deserialize(text)?.iter().map(named).collect()
+}
+
+impl Args {
+    pub(super) fn run(self) -> Result<(), Failure> {
+        let interpreter = self.models.interpreter()?;
+        let mut table = "file,right,sentences,percent\n".to_owned();
+        let (mut all_right, mut all) = (0, 0);
+        for path in &self.files {
+            let sentences = sentences(path)?;
+            let mut right = 0;
+            for sentence in &sentences {
+                let program = read(&interpreter, sentence)?;
+                if is_right(&sentence.steps, &program.steps) {
+                    right += 1;
+                } else if self.misses {
+                    let read = program_to_notation(&program);
+                    let Sentence { id, prompt, means, .. } = sentence;
+                    console::note(&format!("{id}: {prompt:?}\n  means  {means}\n  read   {read}"));
+                }
+            }
+            write_row(&mut table, &path.display().to_string(), right, sentences.len());
+            (all_right, all) = (all_right + right, all + sentences.len());
+        }
+        if self.files.len() > 1 {
+            write_row(&mut table, "all", all_right, all);
+        }
+        console::data(&table)
+    }
+}
+
+fn write_row(table: &mut String, name: &str, right: usize, count: usize) {
+    let percent = 100.0 * right as f64 / count.max(1) as f64;
+    // Writing to a string cannot fail.
+    let _ = writeln!(table, "{name},{right},{count},{percent:.1}");
+}
+
+fn sentences(path: &Path) -> Result<Vec<Sentence>, Failure> {
+    let bad = |line: usize, error: &serde_json::Error| {
+        let found = format!("{}: line {line}: {error}, expected a sentence", path.display());
+        Failure::new("BAD-SENTENCE", found, "`cinesplat bench readings --help` explains the files", Exit::BadData)
+    };
+    let text = outputs::read_text(path)?;
+    text.lines()
+        .zip(1..)
+        .map(|(line, number)| serde_json::from_str(line).map_err(|error| bad(number, &error)))
+        .collect()
+}
+
+fn read(interpreter: &Interpreter, sentence: &Sentence) -> Result<Program, Failure> {
+    let named = (1..).zip(&sentence.things).map(|(id, label)| NamedObject { id, label: label.clone() });
+    let names: Vec<NamedObject> = named.collect();
+    let linked = interpreter.director.link(&sentence.prompt, &names)?;
+    let (reading, _) = read_linked(interpreter, &sentence.prompt, linked, &names)?;
+    Ok(reading.direction.program)
+}
+
+/// Whether the steps are those wanted, in order.
+fn is_right(wanted: &[WantedStep], steps: &[Step]) -> bool {
+    let follows = |rest: &[WantedStep], steps: &[Step]| is_right(rest, steps);
+    match (wanted.split_first(), steps.split_first()) {
+        (None, None) => true,
+        (Some((first, rest)), Some((step, later))) => {
+            (is_wanted(first, step) && follows(rest, later))
+                || (first.optional && follows(rest, steps))
+                || (is_rest(step) && follows(wanted, later))
+        }
+        (Some((first, rest)), None) => first.optional && follows(rest, steps),
+        (None, Some((step, later))) => is_rest(step) && follows(wanted, later),
+    }
+}
+
+fn is_rest(step: &Step) -> bool {
+    step.movement == Move::Static && step.with.is_empty()
+}
+
+fn is_wanted(wanted: &WantedStep, step: &Step) -> bool {
+    let is_one = |movement: &Move| {
+        wanted.moves.contains(movement)
+            || step.either_way && movement.opposite().is_some_and(|other| wanted.moves.contains(&other))
+    };
+    let about = about(step);
+    std::iter::once(&step.movement).chain(&step.with).any(is_one) && wanted.objs.iter().all(|id| about.contains(id))
+}
+
+/// All things that a step is about.
+fn about(step: &Step) -> Vec<u32> {
+    let looked = match &step.look {
+        Some(Look::At(ids)) => ids.as_slice(),
+        _ => &[],
+    };
+    let passed = step.via.as_ref().map_or(&[][..], |via| &via.objects);
+    [&step.start.subjects, &step.end.subjects, passed, looked, &step.keep, &step.end.backdrop].concat()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use cinesplat::operator::Framing;
+
+    fn wanted(text: &str) -> Vec<WantedStep> {
+        serde_json::from_str(text).unwrap()
+    }
+
+    fn about_one(movement: Move, id: u32, either_way: bool) -> Step {
+        Step { end: Framing { subjects: vec![id], ..Framing::default() }, either_way, ..Step::of(movement) }
+    }
+
+    #[test]
+    fn steps_are_right_in_order_with_one_of_the_moves_and_all_of_the_things() {
+        let want = r#"[{"moves":["pan-left"],"objs":[1]},{"moves":["push-in","follow"],"objs":[2]},{"moves":["static"],"optional":true}]"#;
+        let pan = |either| about_one(Move::PanRight, 1, either);
+        let push = about_one(Move::PushIn, 2, false);
+        assert!(is_right(&wanted(want), &[pan(true), push.clone()]));
+        assert!(is_right(&wanted(want), &[about_one(Move::Static, 1, false), pan(true), push.clone()]));
+        assert!(!is_right(&wanted(want), &[pan(false), push.clone()]), "the other way");
+        assert!(!is_right(&wanted(want), &[push.clone(), pan(true)]), "another order");
+        assert!(!is_right(&wanted(want), &[pan(true)]), "a step is missing");
+        assert!(!is_right(&wanted(want), &[pan(true), about_one(Move::PushIn, 3, false)]), "another thing");
+        assert!(!is_right(&wanted(want), &[pan(true), push, about_one(Move::TiltUp, 2, false)]), "one step more");
+    }
+}
