@@ -166,7 +166,7 @@ check-exchange: build
 	$(EXCHANGE)/venv/bin/python tests/exchange/other_files.py $(BIN)
 	$(EXCHANGE)/venv/bin/python tests/exchange/evo_figures.py $(BIN) $(EXCHANGE)/evo/test/data
 
-# The pictures of the README: the demo film, and a sheet of each film of prompts/gallery.txt. Needs the program ffmpeg.
+# The pictures of the README: the demo film, a sheet of each film of prompts/gallery.txt, and one of the objects of a room. Needs the program ffmpeg.
 gallery: demo
 	ffmpeg -v error -y -i renders/demo.mp4 -vf "fps=12,scale=640:-2:flags=lanczos" \
 		-c:v libwebp_anim -loop 0 -quality 60 -compression_level 6 renders/gallery/demo.webp
@@ -177,6 +177,9 @@ gallery: demo
 		ffmpeg -v error -y -i target/gallery/$$name.png -vf scale=1040:-2:flags=lanczos -quality 72 renders/gallery/$$name.webp \
 			< /dev/null || exit; \
 	done < prompts/gallery.txt
+	$(BIN) objects synth:room:21 -o target/gallery/objects.json --sheet target/gallery/objects.png --overwrite
+	ffmpeg -v error -y -i target/gallery/objects.png -vf "crop=1396:2420:0:0,scale=900:-2:flags=lanczos" -quality 70 \
+		renders/gallery/objects.webp
 
 # Each effect of prompts/gallery-effects.txt off (left) and on (right) with its cost under it (renders/lens/lens-costs.csv), on
 # one sheet. Needs the program ffmpeg and the scene.

@@ -281,3 +281,14 @@ fn the_help_of_a_distortion_that_folds_the_picture_repeats_its_error() {
     help: bring the k1, k2, k3, p1 and p2 of lens-distortion nearer to 0, or narrow the field of view
     ");
 }
+
+/// From a thing near the edge of a table the way back may go over the table: there is a window behind it.
+#[test]
+fn a_crane_from_a_thing_to_the_table_that_bears_it_stays_in_the_room() {
+    let folder = tempfile::tempdir().unwrap();
+    let prompt = "begin with a tight shot of the teal teapot, then crane up and back to reveal the whole table";
+    let output = run(folder.path(), &["plan", "synth:tabletop:3:0.3", "-p", prompt, "-o", "shot.json", "--explain"]);
+    let said = String::from_utf8(output.stdout).unwrap() + &String::from_utf8(output.stderr).unwrap();
+    assert!(output.status.success(), "{said}");
+    assert!(said.contains("crane-up") && !said.contains("captured region"), "{said}");
+}

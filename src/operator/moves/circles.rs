@@ -275,7 +275,7 @@ fn crane_between(context: &StepContext, start: &Target, end: &Target, upward: bo
     let (mut segments, first) = context.opened_on(start, (0.42, 0.68));
     let view = end_view(context, end, &first);
     let seen = bearing_of(context.world, end.aim, view.pose.position);
-    let seen = Bearing { azimuth_rad: near_side(context, end, &first, seen.azimuth_rad), ..seen };
+    let seen = Bearing { azimuth_rad: near_side(context, [start, end], &first, seen.azimuth_rad), ..seen };
     let distance = view.pose.position.distance(end.aim);
     let frame = &context.world.frame;
     // The least rise or fall that shows, over the distance to the end's subject.
@@ -306,9 +306,11 @@ fn crane_between(context: &StepContext, start: &Target, end: &Target, upward: bo
 }
 
 /// Azimuth from which a crane ends on its second subject: where nothing says a side, about that from which it comes, for nobody asked
-/// for a way around it.
-fn near_side(context: &StepContext, end: &Target, first: &CameraState, azimuth_rad: f64) -> f64 {
-    if stated_azimuths(context.world, end, &context.step.end).is_some() {
+/// for a way around it. From what stands on the second subject it may go back in any direction.
+fn near_side(context: &StepContext, [start, end]: [&Target; 2], first: &CameraState, azimuth_rad: f64) -> f64 {
+    let level = |point: DVec3| context.world.frame.horizontal(point - end.aim).length();
+    let stands_on_it = level(start.aim) < end.corners.iter().map(|corner| level(*corner)).fold(0.0, f64::max);
+    if stands_on_it || stated_azimuths(context.world, end, &context.step.end).is_some() {
         return azimuth_rad;
     }
     let near = bearing_of(context.world, end.aim, first.pose.position).azimuth_rad;
