@@ -29,3 +29,20 @@ pub(crate) fn about(movement: Move, ids: &[u32], words: [usize; 2]) -> Step {
     let end = Framing { subjects: ids.to_vec(), ..Framing::default() };
     Step { end, words: Some(words), ..Step::of(movement) }
 }
+
+/// The steps of the parts of a text between bars, each about one object.
+pub(crate) fn read(text: &str, moves: &[(Move, u32)]) -> (Linked, Vec<Step>) {
+    let mut from = 0;
+    let spans = text.split(" | ").map(|part| {
+        let span = [from, from + part.len()];
+        from = span[1] + 1;
+        span
+    });
+    let steps = spans.zip(moves).map(|(span, (movement, id))| about(*movement, &[*id], span)).collect();
+    (linked(&text.replace(" | ", " ")), steps)
+}
+
+/// The move of each step and what it ends on.
+pub(crate) fn seen(steps: &[Step]) -> Vec<(Move, Vec<u32>)> {
+    steps.iter().map(|step| (step.movement, step.end.subjects.clone())).collect()
+}

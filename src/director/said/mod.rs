@@ -27,6 +27,7 @@ mod frame_sides;
 mod goes_on;
 mod headlines;
 mod heights;
+mod joined_moves;
 mod lengths;
 mod levels;
 mod looks;
@@ -162,20 +163,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     take_said_of_pictures(linked, &mut direction.program.steps);
     looks::roll_back(linked, &mut direction.program.steps);
     take_said_of_moves(linked, direction);
-    named_moves::join_continued(linked, direction);
-    named_moves::pass_listed(linked, direction);
-    named_moves::show_until(linked, &mut direction.program.steps);
-    named_moves::move_as_named(linked, &mut direction.program.steps);
-    named_moves::rest_as_named(linked, &mut direction.program.steps);
-    named_moves::stay_with_subject(linked, &mut direction.program.steps);
-    named_moves::face_on_the_way(linked, &mut direction.program.steps);
-    named_moves::travel_without_tilt(linked, &mut direction.program.steps);
-    named_moves::show_all_of_number(linked, &mut direction.program.steps);
-    named_moves::join_dolly_zooms(&mut direction.program.steps);
-    named_moves::land_where_next_starts(&mut direction.program.steps);
-    named_moves::roll_on_the_spot(linked, direction);
-    named_moves::end_on_both(linked, &mut direction.program.steps);
-    named_moves::rise_along_itself(&mut direction.program.steps);
+    named_moves::take_named_moves(linked, direction);
     Ok(())
 }
 

@@ -2,11 +2,12 @@
 //! push`, `hold on the mask`, `straight down, no tilt`.
 
 use cinesplat_language::{Linked, is_listed};
-use cinesplat_operator::{Framing, Look, Pass, Step, SubjectPart, SubjectSide, Via};
+use cinesplat_operator::{Look, Pass, Step, SubjectPart, SubjectSide, Via};
 use cinesplat_trajectory::Move;
 
 use super::briefs::is_camera_verb;
 use super::directions::is_form;
+use super::joined_moves::{join_continued, join_dolly_zooms, pass_listed, roll_on_the_spot};
 use crate::direction::Direction;
 
 /// Words that deny the verb behind them, and how many of the words before may be one.
@@ -26,8 +27,27 @@ fn is_denied(words: &[&str], at: usize) -> bool {
     words[..at].iter().rev().take(NUM_BEFORE).any(|word| is_listed(DENIALS, word))
 }
 
+/// Corrects moves, and what they are about, by what their words name.
+pub(crate) fn take_named_moves(linked: &Linked, direction: &mut Direction) {
+    join_continued(linked, direction);
+    pass_listed(linked, direction);
+    let steps = &mut direction.program.steps;
+    show_until(linked, steps);
+    move_as_named(linked, steps);
+    rest_as_named(linked, steps);
+    stay_with_subject(linked, steps);
+    face_on_the_way(linked, steps);
+    travel_without_tilt(linked, steps);
+    show_all_of_number(linked, steps);
+    join_dolly_zooms(steps);
+    land_where_next_starts(steps);
+    roll_on_the_spot(linked, direction);
+    end_on_both(linked, &mut direction.program.steps);
+    rise_along_itself(&mut direction.program.steps);
+}
+
 /// Pans and slides where the words of a way name no other move.
-pub(crate) fn move_as_named(linked: &Linked, steps: &mut [Step]) {
+fn move_as_named(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let verbs = (0..words.len()).filter(|&at| is_camera_verb(&words, at) && !is_denied(&words, at));
@@ -44,7 +64,7 @@ const OTHERS: &str = "either neither both all they them everything room whole en
     each every everyone pair two three four five six seven group scene start where back again same there rest next former latter";
 
 /// Moves about the thing that the step before ends on, where the words of a step name nothing.
-pub(crate) fn stay_with_subject(linked: &Linked, steps: &mut [Step]) {
+fn stay_with_subject(linked: &Linked, steps: &mut [Step]) {
     for nth in 1..steps.len() {
         let words = linked.texts_in(steps[nth].words.unwrap_or_default());
         let names = words.iter().any(|word| linked.slot_at(word).is_some() || is_listed(OTHERS, word));
@@ -75,7 +95,7 @@ pub(crate) fn stay_with_subject(linked: &Linked, steps: &mut [Step]) {
 const RESTS: [&str; 7] = ["hold", "rest", "linger", "dwell", "pause", "stay", "settle"];
 
 /// Rests where the words of a step say that it rests on something, and no move.
-pub(crate) fn rest_as_named(linked: &Linked, steps: &mut [Step]) {
+fn rest_as_named(linked: &Linked, steps: &mut [Step]) {
     for nth in 1..steps.len() {
         let words = linked.texts_in(steps[nth].words.unwrap_or_default());
         let lead = words.iter().position(|word| !is_listed("and then , ; . finally", word)).unwrap_or(0);
@@ -99,7 +119,7 @@ const FACES: &str = "facing looking watching";
 const BETWEEN: &str = "in a straight line , and while always the at to still";
 
 /// Looks at what the words after a way only say that it faces: `from the left speaker to the right one, facing the stage`.
-pub(crate) fn face_on_the_way(linked: &Linked, steps: &mut Vec<Step>) {
+fn face_on_the_way(linked: &Linked, steps: &mut Vec<Step>) {
     for nth in (1..steps.len()).rev() {
         let words = linked.texts_in(steps[nth].words.unwrap_or_default());
         let faces = words.iter().any(|word| is_listed(FACES, word));
@@ -108,7 +128,7 @@ pub(crate) fn face_on_the_way(linked: &Linked, steps: &mut Vec<Step>) {
         let travels = matches!(steps[nth - 1].movement, Move::Follow | Move::TruckLeft | Move::TruckRight);
         let faced = steps[nth].end.subjects.clone();
         let is_way = steps[nth].movement == Move::Follow || steps[nth].movement == Move::Static;
-        if faces && words.iter().all(|word| is_rest(&word)) && travels && is_way && !faced.is_empty() {
+        if faces && words.iter().all(is_rest) && travels && is_way && !faced.is_empty() {
             steps[nth - 1].look.get_or_insert(Look::At(faced));
             steps.remove(nth);
         }
@@ -116,7 +136,7 @@ pub(crate) fn face_on_the_way(linked: &Linked, steps: &mut Vec<Step>) {
 }
 
 /// Goes straight up or down where the words rule out a tilt and name none.
-pub(crate) fn travel_without_tilt(linked: &Linked, steps: &mut [Step]) {
+fn travel_without_tilt(linked: &Linked, steps: &mut [Step]) {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
     let tilts = |at: usize| is_form(words[at], "tilt");
     let denies =
@@ -138,7 +158,7 @@ pub(crate) fn travel_without_tilt(linked: &Linked, steps: &mut [Step]) {
 }
 
 /// Shows everything so far where the words of a step mean all of it by number: `widen the lens so all three are in`.
-pub(crate) fn show_all_of_number(linked: &Linked, steps: &mut [Step]) {
+fn show_all_of_number(linked: &Linked, steps: &mut [Step]) {
     for nth in 1..steps.len() {
         let words = linked.texts_in(steps[nth].words.unwrap_or_default());
         let names = words.iter().any(|word| linked.slot_at(word).is_some());
@@ -166,32 +186,9 @@ pub(crate) fn show_all_of_number(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
-/// Joins a push with the dolly zoom on the same thing behind it: `walk towards the plant and the background stretches away`.
-pub(crate) fn join_dolly_zooms(steps: &mut Vec<Step>) {
-    for nth in (1..steps.len()).rev() {
-        let way = match steps[nth].movement {
-            Move::DollyZoomIn => Move::PushIn,
-            Move::DollyZoomOut => Move::PullOut,
-            _ => continue,
-        };
-        let before = &steps[nth - 1];
-        let is_plain = before.amount.is_none() && before.end.size.is_none() && !before.end.whole;
-        let is_same = before.end.subjects == steps[nth].end.subjects || steps[nth].end.subjects.is_empty();
-        let joined = steps[nth].joint_words(before).is_some_and(|[from, to]| to - from < 160);
-        if before.movement == way && is_plain && is_same && joined && before.start.subjects.is_empty() {
-            let before = steps.remove(nth - 1);
-            let step = &mut steps[nth - 1];
-            step.words = step.joint_words(&before);
-            if step.end.subjects.is_empty() {
-                step.end.subjects = before.end.subjects;
-            }
-        }
-    }
-}
-
 /// Turns to the part of a thing from which the next move starts: `whip left to the guitar, and tilt up it from the body to the head`
 /// does not land on its middle.
-pub(crate) fn land_where_next_starts(steps: &mut [Step]) {
+fn land_where_next_starts(steps: &mut [Step]) {
     for nth in 1..steps.len() {
         let next = &steps[nth];
         let (subjects, part) = (next.start.subjects.clone(), next.start.part);
@@ -206,7 +203,7 @@ pub(crate) fn land_where_next_starts(steps: &mut [Step]) {
 }
 
 /// Drops the way along a thing of a rise from its foot to its top, which is that way.
-pub(crate) fn rise_along_itself(steps: &mut [Step]) {
+fn rise_along_itself(steps: &mut [Step]) {
     for step in steps {
         let rises = matches!(step.movement, Move::TiltUp | Move::TiltDown | Move::PedestalUp | Move::PedestalDown);
         let is_own = |via: &Via| {
@@ -225,64 +222,11 @@ pub(crate) fn rise_along_itself(steps: &mut [Step]) {
     }
 }
 
-/// Joins a move with the words behind it that only say from where to where it goes: `tilt up the bookshelf, from the bottom shelf to
-/// the candle on top`.
-pub(crate) fn join_continued(linked: &Linked, direction: &mut Direction) {
-    for nth in (1..direction.program.steps.len()).rev() {
-        let [before, step] = [&direction.program.steps[nth - 1], &direction.program.steps[nth]];
-        let words = linked.texts_in(step.words.unwrap_or_default());
-        let lead = words.iter().position(|word| !matches!(*word, "," | ";" | "all" | "right"));
-        let continues = lead.is_some_and(|lead| words[lead] == "from") && words.contains(&"to");
-        let moves = (0..words.len()).any(|at| is_camera_verb(&words, at));
-        let is_same = before.movement == step.movement && before.via.is_none() && !step.cut;
-        let is_open = before.end.size.is_none() && before.amount.is_none();
-        if !continues || moves || !is_same || !is_open || step.start.subjects.is_empty() || before.words == step.words {
-            continue;
-        }
-        let start = if before.start.subjects == step.start.subjects && step.start.part == SubjectPart::Middle {
-            before.start.clone()
-        } else {
-            step.start.clone()
-        };
-        let joined = Step { start, end: step.end.clone(), words: step.joint_words(before), ..before.clone() };
-        direction.join_steps(nth, joined);
-    }
-}
-
-/// Passes, on a slide along something, what the words behind it only list: `slide right along the sideboard: plant, books, radio`.
-pub(crate) fn pass_listed(linked: &Linked, direction: &mut Direction) {
-    let is_bare = |step: &Step| {
-        let words = linked.texts_in(step.words.unwrap_or_default());
-        let is_name = |word: &&str| is_listed(", . and the then finally", word) || linked.slot_at(word).is_some();
-        let names = words.iter().any(|word| linked.slot_at(word).is_some());
-        names && words.iter().all(|word| is_name(&word)) && step.end.subjects.len() == 1 && step.via.is_none()
-    };
-    let mut nth = 0;
-    while nth < direction.program.steps.len() {
-        let step = &direction.program.steps[nth];
-        let slides = matches!(step.movement, Move::TruckLeft | Move::TruckRight);
-        let is_along = step.via.as_ref().is_some_and(|via| via.how == Pass::Along);
-        let words = linked.texts_in(step.words.unwrap_or_default());
-        let lists = words.contains(&":");
-        let listed = direction.program.steps[nth + 1..].iter().take_while(|step| is_bare(step)).count();
-        if slides && is_along && lists && listed > 0 {
-            let last = direction.program.steps[nth + listed].clone();
-            let words = last.joint_words(&direction.program.steps[nth]);
-            for at in (nth + 1..=nth + listed).rev() {
-                direction.remove_step(at);
-            }
-            let step = &mut direction.program.steps[nth];
-            (step.end, step.words) = (last.end, words);
-        }
-        nth += 1;
-    }
-}
-
 /// Words of a picture that something is in.
 const PICTURES: &str = "shot frame picture view";
 
 /// Ends with what a way leads until: `up over the stool, until both easels stand side by side in the shot`.
-pub(crate) fn show_until(linked: &Linked, steps: &mut [Step]) {
+fn show_until(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let Some(until) = words.iter().position(|word| is_listed("until till", word)) else { continue };
@@ -309,25 +253,8 @@ pub(crate) fn show_until(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
-/// Rolls the picture that the step before only shows, where both are about the same: nothing else moves.
-pub(crate) fn roll_on_the_spot(linked: &Linked, direction: &mut Direction) {
-    for nth in (1..direction.program.steps.len()).rev() {
-        let [before, step] = [&direction.program.steps[nth - 1], &direction.program.steps[nth]];
-        let shown = linked.expanded(&before.end.subjects);
-        let own = linked.expanded(&step.end.subjects);
-        let plain = Framing { subjects: step.end.subjects.clone(), ..Framing::default() };
-        let rolls = matches!(step.movement, Move::RollCw | Move::RollCcw) && step.start == Framing::default();
-        let is_same = step.end == plain && !own.is_empty() && own.iter().all(|id| shown.contains(id));
-        let rest = Step { end: before.end.clone(), words: before.words, speed: before.speed, ..Step::of(Move::Static) };
-        if rolls && is_same && *before == rest {
-            let joined = Step { end: before.end.clone(), words: step.joint_words(before), ..step.clone() };
-            direction.join_steps(nth, joined);
-        }
-    }
-}
-
 /// Ends with both of two things that the words of a turn or a way call by their number: `tilt up to the two lamps`.
-pub(crate) fn end_on_both(linked: &Linked, steps: &mut [Step]) {
+fn end_on_both(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let says = words.iter().any(|word| is_listed("both two pair", word));
@@ -345,24 +272,8 @@ pub(crate) fn end_on_both(linked: &Linked, steps: &mut [Step]) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture::{about, direction, linked};
+    use super::super::fixture::{read, seen};
     use super::*;
-
-    /// Steps of the parts of a text between bars, each about one object.
-    fn read(text: &str, moves: &[(Move, u32)]) -> (Linked, Vec<Step>) {
-        let mut from = 0;
-        let spans = text.split(" | ").map(|part| {
-            let span = [from, from + part.len()];
-            from = span[1] + 1;
-            span
-        });
-        let steps = spans.zip(moves).map(|(span, (movement, id))| about(*movement, &[*id], span)).collect();
-        (linked(&text.replace(" | ", " ")), steps)
-    }
-
-    fn seen(steps: &[Step]) -> Vec<(Move, Vec<u32>)> {
-        steps.iter().map(|step| (step.movement, step.end.subjects.clone())).collect()
-    }
 
     #[test]
     fn a_way_whose_words_name_a_slide_or_a_turn_is_one() {
@@ -427,14 +338,6 @@ mod tests {
     }
 
     #[test]
-    fn a_push_and_a_dolly_zoom_on_one_thing_are_one() {
-        let (_, mut steps) =
-            read("walk towards <obj-0> | and the background stretches", &[(Move::PushIn, 5), (Move::DollyZoomIn, 5)]);
-        join_dolly_zooms(&mut steps);
-        assert_eq!(seen(&steps), [(Move::DollyZoomIn, vec![5])]);
-    }
-
-    #[test]
     fn a_turn_lands_where_the_tilt_behind_it_starts() {
         let (_, mut steps) = read("whip to <obj-0> | tilt up it", &[(Move::WhipPan, 5), (Move::TiltUp, 5)]);
         steps[1].start.subjects = vec![5];
@@ -447,17 +350,6 @@ mod tests {
     }
 
     #[test]
-    fn a_roll_of_the_picture_before_is_one_picture() {
-        let (linked, mut steps) =
-            read("top shot of <obj-0> | let the camera roll", &[(Move::Static, 5), (Move::RollCw, 5)]);
-        steps[0].end.whole = true;
-        let mut read = direction(steps);
-        roll_on_the_spot(&linked, &mut read);
-        assert_eq!(seen(&read.program.steps), [(Move::RollCw, vec![5])]);
-        assert!(read.program.steps[0].end.whole);
-    }
-
-    #[test]
     fn both_things_that_a_turn_ends_on_are_whole() {
         let whole = |text: &str| {
             let (linked, mut steps) = read(text, &[(Move::TiltUp, 5)]);
@@ -467,29 +359,6 @@ mod tests {
         };
         assert!(whole("tilt up to the two lamps"));
         assert!(!whole("tilt up to the lamps"));
-    }
-
-    #[test]
-    fn from_and_to_behind_a_move_are_its_own() {
-        let (linked, mut steps) =
-            read("tilt up <obj-0> | , from the bottom to <obj-1>", &[(Move::TiltUp, 5), (Move::TiltUp, 7)]);
-        steps[0].start.subjects = vec![5];
-        steps[0].start.part = SubjectPart::Bottom;
-        steps[1].start.subjects = vec![5];
-        let mut read = direction(steps);
-        join_continued(&linked, &mut read);
-        assert_eq!(seen(&read.program.steps), [(Move::TiltUp, vec![7])]);
-        assert_eq!(read.program.steps[0].start.part, SubjectPart::Bottom);
-    }
-
-    #[test]
-    fn a_slide_passes_what_is_listed_behind_it() {
-        let moves = [(Move::TruckRight, 5), (Move::Follow, 7), (Move::Follow, 5)];
-        let (linked, mut steps) = read("slide right along <obj-0> : <obj-0> , | <obj-1> , | <obj-0> .", &moves);
-        steps[0].via = Some(Via { how: Pass::Along, objects: vec![9] });
-        let mut read = direction(steps);
-        pass_listed(&linked, &mut read);
-        assert_eq!(seen(&read.program.steps), [(Move::TruckRight, vec![5])]);
     }
 
     #[test]
