@@ -120,6 +120,15 @@ fn no_two_files_import_each_other() {
     assert!(circles.is_empty(), "files that import each other:\n{}", circles.join("\n"));
 }
 
+/// The program itself is compiled without a test harness: unit tests in its files would never run.
+#[test]
+fn the_command_line_has_no_unit_tests() {
+    let files = rust_files(&root().join("src/cli"), false);
+    assert!(files.len() > 20, "{} files", files.len());
+    let tested = files.iter().filter(|file| fs::read_to_string(file).unwrap().contains("#[cfg(test)]"));
+    assert_eq!(tested.collect::<Vec<&PathBuf>>(), Vec::<&PathBuf>::new());
+}
+
 #[test]
 fn a_circle_of_files_is_noticed() {
     let circles = |files: &[(&str, &str)]| {

@@ -96,33 +96,3 @@ pub(super) fn for_each<T>(
     let found = format!("{} of {} prompts failed: {names}", failed.len(), jobs.len());
     Err(Failure::new("PROMPTS", found, "the errors above say why; the other prompts are done", first.exit()))
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn lines_have_their_own_name_or_their_number() {
-        let named = |name: &str, prompt: &str| NamedPrompt { name: name.to_owned(), prompt: prompt.to_owned() };
-        let text = "# moves of the lamp\npush in on the lamp\n\nwide\tstart wide: the whole room \r\n";
-        assert_eq!(
-            parse(text).unwrap(),
-            [named("002", "push in on the lamp"), named("wide", "start wide: the whole room")]
-        );
-    }
-
-    #[test]
-    fn names_that_are_no_file_names_or_not_unique_are_refused_with_their_line() {
-        let refused = |text: &str| parse(text).unwrap_err();
-        assert!(refused("../a\tpan left").contains("line 1: name \"../a\""));
-        assert!(refused("a\tpan left\na\tpan right").contains("lines 1 and 2"));
-        assert!(refused("a\t ").contains("line 1: no prompt"));
-        assert!(refused("# nothing\n").contains("no prompt"));
-    }
-
-    #[test]
-    fn outputs_need_a_place_for_the_name() {
-        assert_eq!(output_of(Path::new("films/{}.mp4"), "wide").unwrap(), Path::new("films/wide.mp4"));
-        assert!(output_of(Path::new("film.mp4"), "wide").is_err());
-    }
-}

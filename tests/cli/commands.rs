@@ -440,3 +440,23 @@ fn a_file_of_prompts_gives_a_shot_per_line() {
     let one_name = run(folder.path(), &["plan", SMALL_SCENE, "--prompts", "moves.txt", "-o", "shot.json"]);
     assert_eq!(one_name.status.code(), Some(2));
 }
+
+#[test]
+fn lines_of_prompts_without_a_name_for_a_file_of_their_own_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let refused = |text: &str| {
+        fs::write(folder.path().join("p.txt"), text).unwrap();
+        answer(folder.path(), &["plan", SMALL_SCENE, "--prompts", "p.txt", "--solve", "off", "-o", "{}.json"])
+    };
+    for (text, found) in [
+        ("../a\tpan left", "line 1: name \"../a\""),
+        ("a\tpan left\na\tpan right", "lines 1 and 2"),
+        ("a\t ", "line 1: no prompt"),
+        ("# nothing\n", "no prompt"),
+    ] {
+        let said = refused(text);
+        assert!(said.starts_with("exit 65") && said.contains(found), "{text:?}: {said}");
+    }
+    assert!(refused("# of the lamp\npan left\n\nwide\tpull out \r\n").starts_with("exit 0"));
+    assert!(folder.path().join("002.json").exists() && folder.path().join("wide.json").exists());
+}

@@ -1,6 +1,6 @@
 //! `cinesplat read`: what a sentence is understood as.
 
-use serde_json::Value;
+use serde_json::{Value, json};
 
 use super::{answer, data};
 
@@ -101,26 +101,36 @@ fn dictated_marks_are_no_words() {
     assert!(unused.iter().all(|word| word.len() > 1), "{unused:?}");
 }
 
+/// A line of `bench readings`: a sentence about a sofa (1) and a floor lamp (2), and the steps that it asks for.
+fn sentence(prompt: &str, steps: &[(&str, u32)]) -> String {
+    let steps: Vec<Value> = steps
+        .iter()
+        .map(|(moves, id)| json!({"moves": moves.split(' ').collect::<Vec<&str>>(), "objs": [id]}))
+        .collect();
+    let things = ["sofa", "floor lamp"];
+    json!({"id": "a", "prompt": prompt, "things": things, "means": "as said", "steps": steps}).to_string()
+}
+
 #[test]
 fn bench_readings_counts_the_sentences_that_are_read_as_meant() {
     let folder = tempfile::tempdir().unwrap();
-    let line = |id: &str, prompt: &str, moves: &str, thing: u32| {
-        let things = r#""things":["sofa","floor lamp"],"means":"as said""#;
-        let steps = format!(r#"[{{"moves":[{moves}],"objs":[{thing}]}}]"#);
-        format!(r#"{{"id":"{id}","prompt":"{prompt}",{things},"steps":{steps}}}"#)
+    let right = |prompt: &str, steps: &[(&str, u32)]| {
+        std::fs::write(folder.path().join("s.jsonl"), sentence(prompt, steps)).unwrap();
+        let table = data(folder.path(), &["bench", "readings", "s.jsonl"]);
+        table == "file,right,sentences,percent\ns.jsonl,1,1,100.0\n"
     };
-    let sentences = [
-        line("a", "push in on the couch", r#""push-in","follow""#, 1),
-        line("b", "orbit the floor lamp to the left", r#""orbit-left""#, 2),
-        line("c", "tilt up the floor lamp", r#""tilt-up""#, 1),
-    ];
-    std::fs::write(folder.path().join("s.jsonl"), sentences.join("\n")).unwrap();
-    let table = data(folder.path(), &["bench", "readings", "s.jsonl"]);
-    assert_eq!(table, "file,right,sentences,percent\ns.jsonl,2,3,66.7\n");
-    assert!(
-        answer(folder.path(), &["bench", "readings", "s.jsonl", "--misses"]).contains("c: \"tilt up the floor lamp\"")
-    );
-    std::fs::write(folder.path().join("bad.jsonl"), line("d", "pan", r#""wander""#, 1)).unwrap();
+    assert!(right("push in on the couch", &[("push-in follow", 1)]));
+    assert!(right("orbit the floor lamp to the left", &[("orbit-left", 2)]));
+    assert!(!right("orbit the floor lamp to the left", &[("orbit-right", 2)]), "the other way");
+    assert!(right("orbit the floor lamp", &[("orbit-left", 2)]), "either way");
+    assert!(!right("tilt up the floor lamp", &[("tilt-up", 1)]), "another thing");
+    let pan = "pan left from the sofa to the floor lamp, then push in";
+    assert!(right(pan, &[("pan-left", 2), ("push-in", 2)]));
+    assert!(!right(pan, &[("push-in", 2), ("pan-left", 2)]), "another order");
+    assert!(!right(pan, &[("pan-left", 2)]), "one step more");
+    let misses = answer(folder.path(), &["bench", "readings", "s.jsonl", "--misses"]);
+    assert!(misses.contains("a: \"pan left from the sofa"), "{misses}");
+    std::fs::write(folder.path().join("bad.jsonl"), sentence("pan", &[("wander", 1)])).unwrap();
     let error = answer(folder.path(), &["bench", "readings", "bad.jsonl"]);
     assert!(error.contains("bad.jsonl: line 1") && error.contains("there is no move \"wander\""), "{error}");
 }

@@ -156,31 +156,3 @@ fn about(step: &Step) -> Vec<u32> {
     let passed = step.via.as_ref().map_or(&[][..], |via| &via.objects);
     [&step.start.subjects, &step.end.subjects, passed, looked, &step.keep, &step.end.backdrop].concat()
 }
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use cinesplat::operator::Framing;
-
-    fn wanted(text: &str) -> Vec<WantedStep> {
-        serde_json::from_str(text).unwrap()
-    }
-
-    fn about_one(movement: Move, id: u32, either_way: bool) -> Step {
-        Step { end: Framing { subjects: vec![id], ..Framing::default() }, either_way, ..Step::of(movement) }
-    }
-
-    #[test]
-    fn steps_are_right_in_order_with_one_of_the_moves_and_all_of_the_things() {
-        let want = r#"[{"moves":["pan-left"],"objs":[1]},{"moves":["push-in","follow"],"objs":[2]},{"moves":["static"],"optional":true}]"#;
-        let pan = |either| about_one(Move::PanRight, 1, either);
-        let push = about_one(Move::PushIn, 2, false);
-        assert!(is_right(&wanted(want), &[pan(true), push.clone()]));
-        assert!(is_right(&wanted(want), &[about_one(Move::Static, 1, false), pan(true), push.clone()]));
-        assert!(!is_right(&wanted(want), &[pan(false), push.clone()]), "the other way");
-        assert!(!is_right(&wanted(want), &[push.clone(), pan(true)]), "another order");
-        assert!(!is_right(&wanted(want), &[pan(true)]), "a step is missing");
-        assert!(!is_right(&wanted(want), &[pan(true), about_one(Move::PushIn, 3, false)]), "another thing");
-        assert!(!is_right(&wanted(want), &[pan(true), push, about_one(Move::TiltUp, 2, false)]), "one step more");
-    }
-}
