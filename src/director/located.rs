@@ -4,8 +4,7 @@ use cinesplat_language::{LanguageError, Mention, NamedObject, Word, is_listed, p
 
 use crate::explained::{content, head, is_number, label, said};
 use crate::names::FoundMention;
-use crate::placed::Places;
-use cinesplat_objects::Object;
+use crate::placed::{Places, hangs_over};
 
 /// Words that say where a thing is, and words that may stand beside them.
 const WHERE: [&str; 11] =
@@ -108,7 +107,7 @@ pub(crate) fn absorb_places(
             || is_one_again(prompt, thing, place, &between)
             || says_where && is_loose
             || locates(&between) && is_named(thing, place)
-            || hangs_over(places, thing, place, &between)
+            || is_over(places, thing, place, &between)
             || has_part(prompt, objects, thing, place, &between)?
         {
             found[nth - 1].mention.bytes[1] = place.bytes[1];
@@ -120,29 +119,12 @@ pub(crate) fn absorb_places(
     Ok(())
 }
 
-/// Least share of a thing's height between it and the place over which it hangs, and most beside that place, over its width.
-const OVER_FRAC: f64 = -0.2;
-const ASIDE_FRAC: f64 = 0.5;
-
 /// Whether the first thing hangs over the second one, as the words between them say: `the tool wall over the workbench`.
-fn hangs_over(places: Places<'_>, thing: &Mention, place: &Mention, between: &[Word]) -> bool {
+fn is_over(places: Places<'_>, thing: &Mention, place: &Mention, between: &[Word]) -> bool {
     let over = between.first().is_some_and(|word| is_listed("over above", &word.text))
         && between[1..].iter().all(|word| is_listed("the a an my our your", &word.text));
-    let find = |mention: &Mention| {
-        let [id] = mention.ids[..] else { return None };
-        places.objects.iter().find(|object| object.id == id)
-    };
-    let (Some(thing), Some(place)) = (find(thing), find(place)) else { return false };
-    let heights = |object: &Object| {
-        let heights = object.corners().map(|corner| corner.dot(places.up));
-        [
-            heights.iter().copied().fold(f64::INFINITY, f64::min),
-            heights.iter().copied().fold(f64::NEG_INFINITY, f64::max),
-        ]
-    };
-    let (own, other) = (heights(thing), heights(place));
-    let apart = (thing.center - place.center).reject_from(places.up.normalize_or_zero()).length();
-    over && own[0] - other[1] > OVER_FRAC * (own[1] - own[0]) && apart < ASIDE_FRAC * (thing.radius() + place.radius())
+    let ([thing], [place]) = (&thing.ids[..], &place.ids[..]) else { return false };
+    over && hangs_over(places, *thing, *place)
 }
 
 /// Whether the second mention is only a part of the first one, and no word for what it was taken for: `the plate with the yellow
@@ -179,6 +161,8 @@ fn is_one_again(prompt: &str, thing: &Mention, place: &Mention, between: &[Word]
 
 #[cfg(test)]
 mod tests {
+    use cinesplat_objects::Object;
+
     use super::*;
     use crate::said::fixture::labelled;
 

@@ -2,7 +2,7 @@
 //!
 //! Enters: a scene and its objects. Leaves: an overview, and one picture per object before its dimmed surroundings.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::DVec2;
 use image::{Rgb, RgbImage, imageops};
@@ -186,7 +186,7 @@ impl SheetPainter<'_> {
         let mut image = photo(self.scene, &self.renderer, camera, look)?;
         let ids = self.viewpoints.id_picture(camera)?;
         let scale = f64::from(camera.intrinsics.width) / ids.width as f64;
-        let place = |object| Some((object, visible_middle(&ids, self.set, object)? * scale));
+        let place = |object| Some((object, visible_middle(&ids, &self.viewpoints.ids_of(object))? * scale));
         let seen: Vec<(&Object, DVec2)> = self.set.objects.iter().filter_map(place).collect();
         // The boxes of large objects would cover the picture.
         let size = self.scene.bounds().size();
@@ -223,10 +223,9 @@ impl SheetPainter<'_> {
     }
 }
 
-/// Mean position of the pixels of an object and its parts in the coarse picture; `None` below [`MIN_ID_PIXELS`].
-fn visible_middle(survey: &IdPicture, set: &ObjectSet, object: &Object) -> Option<DVec2> {
-    let ids: Vec<u32> = std::iter::once(object.id).chain(set.parts_of(object.id)).collect();
-    let is_own = |(_, id): &(usize, &u16)| ids.contains(&u32::from(**id));
+/// Mean position of the pixels with some ids in the coarse picture; `None` below [`MIN_ID_PIXELS`].
+fn visible_middle(survey: &IdPicture, ids: &BTreeSet<u16>) -> Option<DVec2> {
+    let is_own = |(_, id): &(usize, &u16)| ids.contains(*id);
     let pixels = || survey.ids.iter().enumerate().filter(is_own).map(|(i, _)| i);
     let count = pixels().count();
     let sum: DVec2 =

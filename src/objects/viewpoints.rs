@@ -3,7 +3,7 @@
 //! Enters: a scene with labels. Leaves: cameras. Candidates are compared on coarse pictures of object ids and depths,
 //! rendered from a thinned scene.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use glam::{DVec2, DVec3};
 use rayon::prelude::*;
@@ -149,29 +149,26 @@ impl<'a> ViewpointSearch<'a> {
     /// [`ObjectsError::Picture`] where a picture cannot be rendered.
     pub(crate) fn overviews(&self, intrinsics: Intrinsics) -> Result<Vec<Camera>, ObjectsError> {
         if !self.is_room {
-            let camera = best_of(self.outside(intrinsics), |camera| self.outside_score(camera))?;
+            let camera = best_of(&self.outside(intrinsics), |camera| self.outside_score(camera))?;
             let all = self.thinned.labels.iter().copied().collect();
             return Ok(vec![self.fitted(camera, &all)]);
         }
-        let clear: Vec<Camera> = self.inside(intrinsics).into_iter().filter(|camera| self.is_clear(camera)).collect();
-        let pictures: Result<Vec<IdPicture>, ObjectsError> =
-            clear.par_iter().map(|camera| self.id_picture(camera)).collect();
-        let pictures = pictures?;
+        let clear = self.inside(intrinsics).into_par_iter().filter(|camera| self.is_clear(camera));
+        let survey = |camera: Camera| Ok((camera, self.id_picture(&camera)?.contents(0.12 * self.size)));
+        let surveyed: Result<Vec<(Camera, Contents)>, ObjectsError> = clear.map(survey).collect();
+        let surveyed = surveyed?;
         let mut chosen: Vec<Camera> = Vec::new();
         let mut seen = BTreeSet::new();
         while chosen.len() < MAX_OVERVIEWS {
-            let scores = pictures.iter().map(|picture| self.overview_score(picture, &seen));
-            let best = scores.enumerate().fold(None, |best: Option<(usize, f64)>, (i, score)| {
-                if best.is_none_or(|(_, most)| score > most + 1e-9) { Some((i, score)) } else { best }
-            });
-            let Some((best, _)) = best else { break };
-            let shown = self.seen_in(&pictures[best]);
+            let scores = surveyed.iter().map(|(_, contents)| self.overview_score(contents, &seen));
+            let Some(best) = first_highest(scores) else { break };
+            let shown = self.seen_in(&surveyed[best].1);
             let num_new = shown.difference(&seen).count();
             if !chosen.is_empty() && num_new < MIN_NEW.max(self.set.objects.len() / 10) {
                 break;
             }
             seen.extend(shown);
-            chosen.push(clear[best]);
+            chosen.push(surveyed[best].0);
         }
         if chosen.is_empty() {
             chosen.push(self.camera_at(self.center, self.middle_of_objects(), intrinsics));
@@ -213,10 +210,8 @@ impl<'a> ViewpointSearch<'a> {
         } else {
             DVec3::ZERO
         };
-        let cameras = self
-            .frame
-            .rings(12, &CLOSEUP_ELEVATIONS_RAD)
-            .map(|away| self.camera_at(object.center + away * distance, object.center, intrinsics));
+        let camera = |away: DVec3| self.camera_at(object.center + away * distance, object.center, intrinsics);
+        let cameras: Vec<Camera> = self.frame.rings(12, &CLOSEUP_ELEVATIONS_RAD).map(camera).collect();
         let score = |camera: &Camera| {
             let picture = self.ids(camera)?;
             let seen = picture.iter().filter(|id| ids.contains(id)).count() as f64;
@@ -228,12 +223,12 @@ impl<'a> ViewpointSearch<'a> {
                 * inward
                 * (CONTRAST_BASE + self.contrast(camera, &picture, &|id| ids.contains(&id))?))
         };
-        let camera = best_of(cameras.collect(), score)?;
+        let camera = best_of(&cameras, score)?;
         Ok(self.fitted(camera, &ids))
     }
 
     /// Labels of an object and its parts.
-    fn ids_of(&self, object: &Object) -> BTreeSet<u16> {
+    pub(crate) fn ids_of(&self, object: &Object) -> BTreeSet<u16> {
         let parts = self.set.parts_of(object.id);
         parts.into_iter().chain([object.id]).filter_map(|id| u16::try_from(id).ok()).collect()
     }
@@ -316,35 +311,46 @@ impl<'a> ViewpointSearch<'a> {
     }
 
     /// Ids of the objects that a picture shows, those of their wholes not included.
-    fn seen_in(&self, picture: &IdPicture) -> BTreeSet<u32> {
-        let counts = picture.counts();
-        let is_seen = |object: &&Object| counts[object.id as usize] >= MIN_ID_PIXELS as u32;
+    fn seen_in(&self, contents: &Contents) -> BTreeSet<u32> {
+        let is_seen = |object: &&Object| contents.num_pixels(object) >= MIN_ID_PIXELS as u32;
         self.set.objects.iter().filter(is_seen).map(|object| object.id).collect()
     }
 
     /// `seen`: objects that count little, because another picture shows them.
-    fn overview_score(&self, picture: &IdPicture, seen: &BTreeSet<u32>) -> f64 {
-        let counts = picture.counts();
+    fn overview_score(&self, contents: &Contents, seen: &BTreeSet<u32>) -> f64 {
         let value = |object: &Object| {
             let weight = if seen.contains(&object.id) { SEEN_WEIGHT } else { 1.0 };
-            weight * (f64::from(counts[object.id as usize]) / 40.0).min(1.0)
+            weight * (f64::from(contents.num_pixels(object)) / 40.0).min(1.0)
         };
         let shown: f64 = self.set.objects.iter().map(value).sum();
-        let share = |what: &dyn Fn(f32) -> bool| {
-            picture.depths.iter().filter(|depth| what(**depth)).count() as f64 / picture.depths.len() as f64
-        };
-        let void = share(&|depth| depth.is_infinite());
-        let close = share(&|depth| f64::from(depth) < 0.12 * self.size);
-        shown - (void + close) * (1.0 + 0.5 * (self.set.objects.len() - seen.len()) as f64)
+        shown - contents.lost_frac * (1.0 + 0.5 * (self.set.objects.len() - seen.len()) as f64)
+    }
+}
+
+/// What a coarse picture shows.
+struct Contents {
+    /// Number of pixels of each id that it shows.
+    counts: BTreeMap<u32, u32>,
+    /// Share of the picture without matter, and of what is close before the lens.
+    lost_frac: f64,
+}
+
+impl Contents {
+    fn num_pixels(&self, object: &Object) -> u32 {
+        self.counts.get(&object.id).copied().unwrap_or(0)
     }
 }
 
 impl IdPicture {
-    /// Number of pixels of each id.
-    fn counts(&self) -> Vec<u32> {
-        let mut counts = vec![0_u32; usize::from(u16::MAX) + 1];
-        self.ids.iter().for_each(|&id| counts[usize::from(id)] += 1);
-        counts
+    /// `close`: distance below which matter is close.
+    fn contents(&self, close: f64) -> Contents {
+        let mut counts = BTreeMap::new();
+        self.ids.iter().for_each(|&id| *counts.entry(u32::from(id)).or_default() += 1);
+        let share = |what: &dyn Fn(f32) -> bool| {
+            self.depths.iter().filter(|depth| what(**depth)).count() as f64 / self.depths.len() as f64
+        };
+        let lost_frac = share(&|depth| depth.is_infinite()) + share(&|depth| f64::from(depth) < close);
+        Contents { counts, lost_frac }
     }
 }
 
@@ -381,13 +387,16 @@ fn failed(error: &RenderError) -> ObjectsError {
 }
 
 /// The first camera with the highest score.
-fn best_of(cameras: Vec<Camera>, score: impl Fn(&Camera) -> Result<f64, ObjectsError>) -> Result<Camera, ObjectsError> {
-    let mut best: Option<(f64, Camera)> = None;
-    for camera in cameras {
-        let value = score(&camera)?;
-        if best.is_none_or(|(most, _)| value > most + 1e-9) {
-            best = Some((value, camera));
-        }
-    }
-    best.map(|(_, camera)| camera).ok_or_else(|| ObjectsError::Picture { reason: "there is no viewpoint".to_owned() })
+fn best_of(cameras: &[Camera], score: impl Fn(&Camera) -> Result<f64, ObjectsError>) -> Result<Camera, ObjectsError> {
+    let scores: Result<Vec<f64>, ObjectsError> = cameras.iter().map(score).collect();
+    let best = first_highest(scores?.into_iter()).map(|best| cameras[best]);
+    best.ok_or_else(|| ObjectsError::Picture { reason: "there is no viewpoint".to_owned() })
+}
+
+/// Index of the first of the highest scores.
+fn first_highest(scores: impl Iterator<Item = f64>) -> Option<usize> {
+    let best = scores.enumerate().fold(None, |best: Option<(usize, f64)>, (i, score)| {
+        if best.is_none_or(|(_, most)| score > most + 1e-9) { Some((i, score)) } else { best }
+    });
+    best.map(|(i, _)| i)
 }

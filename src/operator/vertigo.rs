@@ -38,9 +38,8 @@ pub(super) fn vertigo_cost(world: &World, segment: &MotionSegment, states: &[Cam
     let growth = swelling(distance(near), reach) / swelling(distance(far), reach);
     let swollen = ramp(SWELLING, growth);
     let travel = [distance(near), distance(far)];
-    SWOLLEN_COST * swollen
-        + FLAT_COST * flat_frac(world, near, distance(near))
-        + WEAK_COST * weak_frac(world, near, travel)
+    let hits = background(world, near);
+    SWOLLEN_COST * swollen + FLAT_COST * flat_frac(&hits, distance(near)) + WEAK_COST * weak_frac(&hits, travel)
 }
 
 /// By how much the near side of a subject, `reach` before its middle, is larger in the picture than its middle.
@@ -48,31 +47,33 @@ pub(super) fn swelling(distance: f64, reach: f64) -> f64 {
     distance / (distance - reach).max(1e-9)
 }
 
-/// How much weaker than it should be the change of the background is, 0..=1. `distances`: those of the subject, nearer and farther.
-fn weak_frac(world: &World, near: &CameraState, [nearer, farther]: [f64; 2]) -> f64 {
-    let change = |hit: f64| (hit / nearer) * farther / (hit + farther - nearer);
-    let mut changes: Vec<f64> = background(world, near).filter(|hit| *hit > nearer).map(change).collect();
+/// How much weaker than it should be the change of the background is, 0..=1. `hits`: [`background`] of the nearer
+/// picture; then the distances of the subject.
+fn weak_frac(hits: &[f64], [nearer, farther]: [f64; 2]) -> f64 {
+    let change = |hit: &f64| (hit / nearer) * farther / (hit + farther - nearer);
+    let mut changes: Vec<f64> = hits.iter().filter(|hit| **hit > nearer).map(change).collect();
     changes.sort_by(f64::total_cmp);
     let typical = changes.get(changes.len() / 2).copied().unwrap_or(1.0);
     ramp(CHANGE, typical)
 }
 
 /// Distances of what the rays of a picture meet.
-fn background(world: &World, state: &CameraState) -> impl Iterator<Item = f64> {
+fn background(world: &World, state: &CameraState) -> Vec<f64> {
     let height = 90.0;
     let width = (height * world.aspect).round().max(1.0);
     let camera =
         Camera { pose: state.pose, intrinsics: Intrinsics::from_fov_y(width as u32, height as u32, state.fov_y_rad) };
     let at = |i: u32, count: u32| (f64::from(i) + 0.5) / f64::from(count);
     let rays = (0..RAYS.0).flat_map(|column| (0..RAYS.1).map(move |row| (column, row)));
-    rays.filter_map(move |(column, row)| {
+    let hit = |(column, row)| {
         let pixel = DVec2::new(at(column, RAYS.0) * width, at(row, RAYS.1) * height);
         world.hit_distance(state.pose.position, camera.ray(pixel))
-    })
+    };
+    rays.filter_map(hit).collect()
 }
 
 /// How far the background of a picture is from filling its share of the frame, 0..=1.
-fn flat_frac(world: &World, near: &CameraState, distance: f64) -> f64 {
-    let far = background(world, near).filter(|hit| *hit > FAR * distance).count() as f64 / f64::from(RAYS.0 * RAYS.1);
+fn flat_frac(hits: &[f64], distance: f64) -> f64 {
+    let far = hits.iter().filter(|hit| **hit > FAR * distance).count() as f64 / f64::from(RAYS.0 * RAYS.1);
     (1.0 - far / LEAST_FAR).max(0.0)
 }

@@ -121,16 +121,15 @@ fn read(interpreter: &Interpreter, sentence: &Sentence) -> Result<Program, Failu
 
 /// Whether the steps are those wanted, in order.
 fn is_right(wanted: &[WantedStep], steps: &[Step]) -> bool {
-    let follows = |rest: &[WantedStep], steps: &[Step]| is_right(rest, steps);
     match (wanted.split_first(), steps.split_first()) {
         (None, None) => true,
         (Some((first, rest)), Some((step, later))) => {
-            (is_wanted(first, step) && follows(rest, later))
-                || (first.optional && follows(rest, steps))
-                || (is_rest(step) && follows(wanted, later))
+            (is_wanted(first, step) && is_right(rest, later))
+                || (first.optional && is_right(rest, steps))
+                || (is_rest(step) && is_right(wanted, later))
         }
-        (Some((first, rest)), None) => first.optional && follows(rest, steps),
-        (None, Some((step, later))) => is_rest(step) && follows(wanted, later),
+        (Some((first, rest)), None) => first.optional && is_right(rest, steps),
+        (None, Some((step, later))) => is_rest(step) && is_right(wanted, later),
     }
 }
 

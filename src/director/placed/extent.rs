@@ -82,6 +82,19 @@ impl Extent {
     }
 }
 
+/// Least distance of a thing above the place over which it hangs, over its height, and most beside it, over both radii.
+const OVER_FRAC: f64 = -0.2;
+const ASIDE_FRAC: f64 = 0.5;
+
+/// Whether a thing hangs over another one.
+pub(crate) fn hangs_over(places: Places<'_>, thing: u32, place: u32) -> bool {
+    let find = |id: u32| places.objects.iter().find(|object| object.id == id);
+    let (Some(thing), Some(place)) = (find(thing), find(place)) else { return false };
+    let (own, other) = (Extent::of(thing, places.up), Extent::of(place, places.up));
+    let is_above = own.low[2] - other.high[2] > OVER_FRAC * (own.high[2] - own.low[2]);
+    is_above && own.aside(&other) < ASIDE_FRAC * (thing.radius() + place.radius())
+}
+
 /// The thing that is nearest to a corner of all that there is.
 pub(super) fn cornermost(places: Places<'_>, ids: &[u32]) -> Option<u32> {
     let all = Extent::of_all(places);

@@ -5,15 +5,18 @@
 
 mod extent;
 mod flanks;
+mod placing;
 mod relations;
 
 use cinesplat_language::{Mention, NamedObject, Relation as Kinship, Things, Word, is_listed, number_word, tokenize};
 
 pub use extent::Places;
+pub(crate) use extent::hangs_over;
 use extent::{Relation, boxes, cornermost, fit, lowest};
 pub(crate) use flanks::{Flank, outermost, told_flank};
 use flanks::{flanking, of_size};
-use relations::{inner_place, relation_of, relation_to_pronoun, says_corner, says_floor, says_way};
+use placing::{placed_behind, placed_later, placed_with};
+use relations::{inner_place, relation_of, says_corner, says_floor, says_way};
 
 use crate::explained::{content, head, is_number, label, said};
 use crate::hung;
@@ -192,7 +195,9 @@ fn placed(
         return lowest(places, alike).map(|id| vec![id]);
     }
     let behind = placed_behind(prompt, found, nth)
-        .or_else(|| placed_later(prompt, objects, found, nth))
+        .or_else(|| {
+            placed_later(prompt, found, nth, &|mention| self::alike(objects, mention, said(prompt, mention)).len())
+        })
         .or_else(|| placed_with(prompt, found, nth));
     let Some((relation, others)) = behind else {
         let in_corner = !is_plural && says_corner(prompt, &found[nth].mention);
@@ -326,47 +331,6 @@ fn rest_of(words: &str, narrowed: Option<&(Vec<u32>, u32)>) -> Option<(Vec<u32>,
     let (alike, one) = narrowed.filter(|_| is_other)?;
     let others: Vec<u32> = alike.iter().filter(|id| *id != one).copied().collect();
     matches!(others[..], [_]).then(|| (alike.clone(), others))
-}
-
-/// What the words behind a mention place it by: the next mention, or, by a pronoun, the one before.
-fn placed_behind(prompt: &str, found: &[FoundMention], nth: usize) -> Option<(Relation, Vec<u32>)> {
-    let end = found[nth].mention.bytes[1];
-    if let Some(next) = found.get(nth + 1).filter(|next| !next.mention.ids.is_empty()) {
-        let between = tokenize(prompt.get(end..next.mention.bytes[0]).unwrap_or_default());
-        if let Some(relation) = relation_of(&between) {
-            return Some((relation, next.mention.ids.clone()));
-        }
-    }
-    let before = nth.checked_sub(1).and_then(|before| found.get(before))?;
-    relation_to_pronoun(prompt, end).map(|relation| (relation, before.mention.ids.clone()))
-}
-
-/// The thing before a mention that has it: `the coffee table with the books`.
-fn placed_with(prompt: &str, found: &[FoundMention], nth: usize) -> Option<(Relation, Vec<u32>)> {
-    let before = &found.get(nth.checked_sub(1)?)?.mention;
-    let between = tokenize(prompt.get(before.bytes[1]..found[nth].mention.bytes[0])?);
-    let has = between.first().is_some_and(|word| word.text == "with")
-        && between[1..].iter().all(|word| is_listed("the its all a an", &word.text));
-    (has && matches!(before.ids[..], [_])).then(|| (Relation::On, before.ids.clone()))
-}
-
-/// What a later mention places a thing by: `the plant in the corner .. the clock on the wall above it`. The other thing is
-/// the only one of its kind.
-fn placed_later(
-    prompt: &str,
-    objects: &[NamedObject],
-    found: &[FoundMention],
-    nth: usize,
-) -> Option<(Relation, Vec<u32>)> {
-    let next = &found.get(nth + 1)?.mention;
-    let is_only = matches!(next.ids[..], [_]) && alike(objects, next, said(prompt, next)).len() < 2;
-    let relation = match relation_to_pronoun(prompt, next.bytes[1]).filter(|_| is_only)? {
-        Relation::Above => Relation::Under,
-        Relation::Under => Relation::Above,
-        Relation::Near => Relation::Near,
-        Relation::On => return None,
-    };
-    Some((relation, next.ids.clone()))
 }
 
 #[cfg(test)]

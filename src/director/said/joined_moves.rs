@@ -78,25 +78,26 @@ pub(super) fn roll_on_the_spot(linked: &Linked, direction: &mut Direction) {
     }
 }
 
+/// Most bytes of a push and its dolly zoom.
+const MOST_BYTES: usize = 160;
+
 /// Joins a push with the dolly zoom on the same thing behind it: `walk towards the plant and the background stretches away`.
-pub(super) fn join_dolly_zooms(steps: &mut Vec<Step>) {
-    for nth in (1..steps.len()).rev() {
-        let way = match steps[nth].movement {
+pub(super) fn join_dolly_zooms(direction: &mut Direction) {
+    for nth in (1..direction.program.steps.len()).rev() {
+        let [before, step] = [&direction.program.steps[nth - 1], &direction.program.steps[nth]];
+        let way = match step.movement {
             Move::DollyZoomIn => Move::PushIn,
             Move::DollyZoomOut => Move::PullOut,
             _ => continue,
         };
-        let before = &steps[nth - 1];
         let is_plain = before.amount.is_none() && before.end.size.is_none() && !before.end.whole;
-        let is_same = before.end.subjects == steps[nth].end.subjects || steps[nth].end.subjects.is_empty();
-        let joined = steps[nth].joint_words(before).is_some_and(|[from, to]| to - from < 160);
+        let is_same = before.end.subjects == step.end.subjects || step.end.subjects.is_empty();
+        let words = step.joint_words(before);
+        let joined = words.is_some_and(|[from, to]| to - from < MOST_BYTES);
         if before.movement == way && is_plain && is_same && joined && before.start.subjects.is_empty() {
-            let before = steps.remove(nth - 1);
-            let step = &mut steps[nth - 1];
-            step.words = step.joint_words(&before);
-            if step.end.subjects.is_empty() {
-                step.end.subjects = before.end.subjects;
-            }
+            let mut one = Step { words, ..step.clone() };
+            one.end.subjects.clone_from(&before.end.subjects);
+            direction.join_steps(nth, one);
         }
     }
 }
@@ -109,10 +110,11 @@ mod tests {
 
     #[test]
     fn a_push_and_a_dolly_zoom_on_one_thing_are_one() {
-        let (_, mut steps) =
+        let (_, steps) =
             read("walk towards <obj-0> | and the background stretches", &[(Move::PushIn, 5), (Move::DollyZoomIn, 5)]);
-        join_dolly_zooms(&mut steps);
-        assert_eq!(seen(&steps), [(Move::DollyZoomIn, vec![5])]);
+        let mut read = direction(steps);
+        join_dolly_zooms(&mut read);
+        assert_eq!(seen(&read.program.steps), [(Move::DollyZoomIn, vec![5])]);
     }
 
     #[test]

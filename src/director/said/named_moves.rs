@@ -1,7 +1,7 @@
 //! Moves that the words name, about what they were said of: `from the left chair truck to the right chair`, `pan right to the bucket,
 //! push`, `hold on the mask`, `straight down, no tilt`.
 
-use cinesplat_language::{Linked, is_listed};
+use cinesplat_language::{Linked, add_ids, is_listed};
 use cinesplat_operator::{Look, Pass, Step, SubjectPart, SubjectSide, Via};
 use cinesplat_trajectory::Move;
 
@@ -36,11 +36,11 @@ pub(crate) fn take_named_moves(linked: &Linked, direction: &mut Direction) {
     move_as_named(linked, steps);
     rest_as_named(linked, steps);
     stay_with_subject(linked, steps);
-    face_on_the_way(linked, steps);
-    travel_without_tilt(linked, steps);
-    show_all_of_number(linked, steps);
-    join_dolly_zooms(steps);
-    land_where_next_starts(steps);
+    face_on_the_way(linked, direction);
+    travel_without_tilt(linked, &mut direction.program.steps);
+    show_all_of_number(linked, &mut direction.program.steps);
+    join_dolly_zooms(direction);
+    land_where_next_starts(&mut direction.program.steps);
     roll_on_the_spot(linked, direction);
     end_on_both(linked, &mut direction.program.steps);
     rise_along_itself(&mut direction.program.steps);
@@ -60,7 +60,7 @@ fn move_as_named(linked: &Linked, steps: &mut [Step]) {
 }
 
 /// Words that stand for more than the thing shown last, or for an earlier one.
-const OTHERS: &str = "either neither both all they them everything room whole entire other others another first start began beginning opening ones one \
+const OTHERS: &str = "either neither both all they them everything room whole entire other others another first began beginning opening ones one \
     each every everyone pair two three four five six seven group scene start where back again same there rest next former latter";
 
 /// Moves about the thing that the step before ends on, where the words of a step name nothing.
@@ -73,18 +73,8 @@ fn stay_with_subject(linked: &Linked, steps: &mut [Step]) {
         let step = &mut steps[nth];
         let [subject] = step.end.subjects[..] else { continue };
         let is_plain = step.start.subjects.is_empty() && step.via.is_none() && step.look.is_none() && !step.returns;
-        let is_about = matches!(
-            step.movement,
-            Move::PushIn
-                | Move::PullOut
-                | Move::ZoomIn
-                | Move::ZoomOut
-                | Move::OrbitLeft
-                | Move::OrbitRight
-                | Move::ArcLeft
-                | Move::ArcRight
-                | Move::Static
-        );
+        let is_about = step.movement.is_circular()
+            || matches!(step.movement, Move::PushIn | Move::PullOut | Move::ZoomIn | Move::ZoomOut | Move::Static);
         if own && !names && is_plain && is_about && subject != before {
             step.end.subjects = vec![before];
         }
@@ -119,8 +109,9 @@ const FACES: &str = "facing looking watching";
 const BETWEEN: &str = "in a straight line , and while always the at to still";
 
 /// Looks at what the words after a way only say that it faces: `from the left speaker to the right one, facing the stage`.
-fn face_on_the_way(linked: &Linked, steps: &mut Vec<Step>) {
-    for nth in (1..steps.len()).rev() {
+fn face_on_the_way(linked: &Linked, direction: &mut Direction) {
+    for nth in (1..direction.program.steps.len()).rev() {
+        let steps = &mut direction.program.steps;
         let words = linked.texts_in(steps[nth].words.unwrap_or_default());
         let faces = words.iter().any(|word| is_listed(FACES, word));
         let is_rest =
@@ -130,7 +121,7 @@ fn face_on_the_way(linked: &Linked, steps: &mut Vec<Step>) {
         let is_way = steps[nth].movement == Move::Follow || steps[nth].movement == Move::Static;
         if faces && words.iter().all(is_rest) && travels && is_way && !faced.is_empty() {
             steps[nth - 1].look.get_or_insert(Look::At(faced));
-            steps.remove(nth);
+            direction.remove_step(nth);
         }
     }
 }
@@ -171,12 +162,9 @@ fn show_all_of_number(linked: &Linked, steps: &mut [Step]) {
         let Some(number) = number.filter(|_| !names) else { continue };
         let mut shown: Vec<u32> = Vec::new();
         for step in &steps[..nth] {
-            let via = step.via.iter().flat_map(|via| via.objects.iter().copied());
-            for id in step.start.subjects.iter().copied().chain(via).chain(step.end.subjects.iter().copied()) {
-                if !shown.contains(&id) {
-                    shown.push(id);
-                }
-            }
+            add_ids(&mut shown, &step.start.subjects);
+            step.via.iter().for_each(|via| add_ids(&mut shown, &via.objects));
+            add_ids(&mut shown, &step.end.subjects);
         }
         let leaves = matches!(steps[nth].movement, Move::PullOut | Move::ZoomOut | Move::CraneUp | Move::Static);
         if leaves && shown.len() == number {
@@ -186,13 +174,17 @@ fn show_all_of_number(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+fn goes_up_or_down(step: &Step) -> bool {
+    matches!(step.movement, Move::TiltUp | Move::TiltDown | Move::PedestalUp | Move::PedestalDown)
+}
+
 /// Turns to the part of a thing from which the next move starts: `whip left to the guitar, and tilt up it from the body to the head`
 /// does not land on its middle.
 fn land_where_next_starts(steps: &mut [Step]) {
     for nth in 1..steps.len() {
         let next = &steps[nth];
         let (subjects, part) = (next.start.subjects.clone(), next.start.part);
-        let rises = matches!(next.movement, Move::TiltUp | Move::TiltDown | Move::PedestalUp | Move::PedestalDown);
+        let rises = goes_up_or_down(next);
         let before = &mut steps[nth - 1];
         let turns = matches!(before.movement, Move::PanLeft | Move::PanRight | Move::WhipPan);
         let is_open = before.end.part == SubjectPart::Middle && before.end.size.is_none() && !before.end.whole;
@@ -205,7 +197,7 @@ fn land_where_next_starts(steps: &mut [Step]) {
 /// Drops the way along a thing of a rise from its foot to its top, which is that way.
 fn rise_along_itself(steps: &mut [Step]) {
     for step in steps {
-        let rises = matches!(step.movement, Move::TiltUp | Move::TiltDown | Move::PedestalUp | Move::PedestalDown);
+        let rises = goes_up_or_down(step);
         let is_own = |via: &Via| {
             via.how == Pass::Along
                 && (via.objects == step.end.subjects
@@ -272,7 +264,7 @@ fn end_on_both(linked: &Linked, steps: &mut [Step]) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture::{read, seen};
+    use super::super::fixture::{direction, read, seen};
     use super::*;
 
     #[test]
@@ -309,9 +301,11 @@ mod tests {
 
     #[test]
     fn what_a_way_faces_is_looked_at() {
-        let (linked, mut steps) =
+        let (linked, steps) =
             read("go from here to there | in a straight line facing <obj-1>", &[(Move::Follow, 5), (Move::Follow, 7)]);
-        face_on_the_way(&linked, &mut steps);
+        let mut read = direction(steps);
+        face_on_the_way(&linked, &mut read);
+        let steps = read.program.steps;
         assert_eq!(seen(&steps), [(Move::Follow, vec![5])]);
         assert_eq!(steps[0].look, Some(Look::At(vec![7])));
     }
