@@ -16,9 +16,14 @@ pub(crate) fn point_back(prompt: &str, objects: &[NamedObject], found: &mut [Fou
     for nth in 1..found.len() {
         let (before, rest) = found.split_at_mut(nth);
         let later = &mut rest[0].mention;
-        let [id] = later.ids[..] else { continue };
         let name = said(prompt, later);
         let words = content(name);
+        let is_plural = tokenize(name).last().is_some_and(|word| word.stem != word.text);
+        if let Some(bearer) = bearer_of(&words, objects, before).filter(|_| is_plural) {
+            later.ids = vec![bearer];
+            continue;
+        }
+        let [id] = later.ids[..] else { continue };
         if words.is_empty() || is_number(name) || label(objects, id).is_some_and(|label| content(label) == words) {
             continue;
         }
@@ -37,6 +42,17 @@ pub(crate) fn point_back(prompt: &str, objects: &[NamedObject], found: &mut [Fou
             later.ids = vec![earlier_id];
         }
     }
+}
+
+/// The thing that an earlier mention named and whose name says that it bears what one word means, where the scene has none of
+/// that by itself: `the tools` after `the tool wall` hang there, and are no toolboxes.
+fn bearer_of(words: &BTreeSet<String>, objects: &[NamedObject], before: &[FoundMention]) -> Option<u32> {
+    let word = words.first().filter(|_| words.len() == 1)?;
+    if objects.iter().any(|object| head(&object.label).as_ref() == Some(word)) {
+        return None;
+    }
+    let bears = |id: &u32| label(objects, *id).is_some_and(|label| content(label).contains(word));
+    before.iter().rev().filter_map(|found| found.mention.ids.first()).copied().find(bears)
 }
 
 /// Points `the green one` at the one thing of that color whose kind the mention before names, as after `three vases`.

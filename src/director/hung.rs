@@ -19,7 +19,7 @@ const MOST_BEFORE: usize = 5;
 const LOOKS: &str = "big large huge small little framed abstract sunset landscape mountain seascape floral leaf botanical portrait \
     gold golden wooden black white colorful colourful old biggest largest smallest tall long";
 /// Words before it that lead to it.
-const GOALS: &str = "at to towards toward onto";
+const GOALS: &str = "at to towards toward onto on from past";
 /// Words behind it by which it is on a wall.
 const PLACES: &str = "above over beside on by next near between nearest closest";
 
@@ -43,7 +43,7 @@ pub(crate) fn name_pictures(prompt: &str, objects: &[NamedObject], found: &mut V
         let is_placed = is_listed(PLACES, text(at + 1)) && !matches!(text(at + 3), "screen" | "camera" | "end");
         let span = [words[article].span[0], words[at].span[1]];
         // What is taken for something that the scene lacks is none of its things.
-        let is_known = is_known(found, span);
+        let is_known = is_known(found, words[at].span);
         // `Look up at the picture above it`.
         let is_goal = article > 0 && is_listed(GOALS, text(article - 1)) && is_listed("above over", text(at + 1));
         let is_described = looks && (is_placed || !words.get(at + 1).is_some_and(Word::is_alphabetic));
@@ -70,6 +70,7 @@ mod tests {
         assert_eq!(named("end on the framed print, then hold"), [[1, 3]]);
         assert_eq!(named("up to the framed landscape over the headboard"), [[1, 3]]);
         assert_eq!(named("look up at the picture above it, and stay"), [[1, 3]]);
+        assert_eq!(named("start on the picture above the bed and pull back"), [[1, 3]]);
         for other in ["keep the whole picture on the lamp", "the lamp fills the big picture frame", "a nice picture"] {
             assert_eq!(named(other), Vec::<Vec<u32>>::new(), "{other}");
         }

@@ -14,12 +14,30 @@ const SMALL: &str = "small smaller smallest little tiny short miniature mini";
 /// Points mentions of one thing that say its size, which its label does not, at the largest or smallest of its kind that fits
 /// their other words as well.
 pub(crate) fn point_by_size(prompt: &str, objects: &[NamedObject], places: Places<'_>, found: &mut [FoundMention]) {
-    for found in found {
-        let [id] = found.mention.ids[..] else { continue };
+    for at in 0..found.len() {
+        let [id] = found[at].mention.ids[..] else { continue };
+        let before = found[..at].iter().rev().find_map(|found| found.mention.ids.first().copied());
+        let found = &mut found[at];
         let words = said(prompt, &found.mention);
         let told = tokenize(words);
         let says = |list: &str| told.iter().any(|word| is_listed(list, &word.text));
         let (is_big, is_small) = (says(BIG), says(SMALL));
+        let names_none = |word: &Word| {
+            is_listed(BIG, &word.text) || is_listed(SMALL, &word.text) || matches!(word.text.as_str(), "the" | "one")
+        };
+        let is_same_kind = told.iter().all(names_none);
+        let one = prompt[found.mention.bytes[1]..]
+            .strip_prefix(" one")
+            .filter(|rest| !rest.starts_with(char::is_alphanumeric));
+        if is_same_kind && one.is_some() {
+            found.mention.bytes[1] += " one".len();
+        }
+        // `the smaller one` is of the kind that was named before, if there are several of it.
+        let of_several = |id: &u32| {
+            let kind = label(objects, *id).map(head);
+            objects.iter().filter(|object| Some(head(&object.label)) == kind).count() > 1
+        };
+        let id = before.filter(|id| is_same_kind && of_several(id)).unwrap_or(id);
         let own = label(objects, id).unwrap_or_default();
         let is_one = told.iter().rev().find(|word| word.is_alphabetic()).is_some_and(|word| word.stem == word.text);
         let is_sized =
@@ -120,6 +138,31 @@ mod tests {
         assert_eq!(pointed("the small plant", 1), [1]);
         assert_eq!(pointed("the bigger blue mug", 3), [4]);
         assert_eq!(pointed("the blue mug", 3), [3]);
+    }
+
+    #[test]
+    fn the_smaller_one_is_of_the_kind_named_before() {
+        let labels = [(1, "window 1", 1.2), (2, "window 2", 0.6), (3, "sideboard", 0.5)];
+        let objects = labels.map(|(id, label, half)| Object::from_box(id, label, DVec3::ZERO, DVec3::splat(half)));
+        let names: Vec<NamedObject> =
+            objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect();
+        let pointed = |prompt: &str, words: [&str; 2], ids: [u32; 2]| {
+            let found = |(words, id): (&str, u32)| {
+                let start = prompt.find(words).unwrap();
+                let mention = Mention { bytes: [start, start + words.len()], ids: vec![id] };
+                FoundMention { mention, probability: 1.0, nearest: Vec::new() }
+            };
+            let mut found = words.into_iter().zip(ids).map(found).collect::<Vec<_>>();
+            point_by_size(prompt, &names, Places { objects: &objects, up: DVec3::Y }, &mut found);
+            found.into_iter().map(|found| found.mention).collect::<Vec<_>>()
+        };
+        let pan = "pan from the big window to the smaller one.";
+        let mentions = pointed(pan, ["the big window", "the smaller"], [2, 3]);
+        assert_eq!([&mentions[0].ids, &mentions[1].ids], [&vec![1], &vec![2]]);
+        assert_eq!(&pan[mentions[1].bytes[0]..mentions[1].bytes[1]], "the smaller one");
+        // There is one sideboard only.
+        let mentions = pointed("from the sideboard to the bigger one", ["the sideboard", "the bigger"], [3, 1]);
+        assert_eq!(mentions[1].ids, [1]);
     }
 
     #[test]

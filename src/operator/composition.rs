@@ -183,8 +183,10 @@ pub(super) fn natural_elevation_deg(world: &World, target: &Target) -> (f64, f64
     if target.ids.len() >= MANY && world.is_indoor() && bottom < 0.8 * eye {
         return MANY_ELEVATION_DEG;
     }
+    let is_sheet = narrow < SHEET_FRAC * height.min(wide) && SHEET_HEIGHTS.contains(&(bottom.midpoint(top) / eye));
     match (is_flat, world.is_indoor()) {
         (true, _) => (28.0, 42.0),
+        (false, true) if is_sheet => (-2.0, 2.0),
         (false, true) if bears => (12.0, 26.0),
         (false, true) if bottom > 0.85 * eye => (-6.0, 6.0),
         (false, true) if is_level(bottom.midpoint(top)) || (is_thin && is_level(top)) => (-2.0, 8.0),
@@ -201,6 +203,10 @@ const MANY_ELEVATION_DEG: (f64, f64) = (18.0, 38.0);
 /// Height of a surface with things on it, over that of a standing person's eyes, at which it is looked down on: a table or
 /// a desk, and no bed.
 const BEARING_HEIGHTS: std::ops::Range<f64> = 0.38..0.7;
+/// Thickness of pictures, windows and boards over their other extents, and the heights of their middles, over that of a standing
+/// person's eyes, at which they are seen from their own level: from above or below they are trapezoids.
+const SHEET_FRAC: f64 = 0.15;
+const SHEET_HEIGHTS: std::ops::Range<f64> = 0.6..1.3;
 /// Thickness of a flat thing over its other extents.
 const FLAT_FRAC: f64 = 0.3;
 

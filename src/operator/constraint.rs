@@ -114,6 +114,17 @@ impl Constraint {
         let ConstraintKind::Unoccluded(id, _) = self.kind else { return None };
         world.subject(id)
     }
+
+    /// The subjects that it wants to be seen, in full or in passing.
+    pub(super) fn about<'a>(&self, world: &'a World) -> Vec<&'a Subject> {
+        match &self.kind {
+            ConstraintKind::Unoccluded(id, _) | ConstraintKind::Passed(Pass::Past, id) => {
+                world.subject(*id).into_iter().collect()
+            }
+            ConstraintKind::InFrame(ids, _) => ids.iter().filter_map(|id| world.subject(*id)).collect(),
+            _ => Vec::new(),
+        }
+    }
 }
 
 /// Distance from a place of the frame that counts as there, over the frame's width and height.

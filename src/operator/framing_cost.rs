@@ -37,6 +37,7 @@ pub(super) fn framing_cost(world: &World, segment: &MotionSegment, states: &[Cam
         + off_wall_side_cost(world, segment, states)
         + raked_cost(world, segment, states)
         + unsquare_cost(world, segment, states)
+        + keystone_cost(world, segment, states)
         + wide_cost(world, segment, states)
         + near_room_cost(world, segment, states);
     sized
@@ -121,11 +122,12 @@ fn raked_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) ->
         return 0.0;
     }
     let ahead = world.frame.azimuth(-states[states.len() / 2].pose.forward());
-    let off_deg = |constraint: &Constraint| {
-        let square_rad = wall_behind(world, constraint.shown(world)?)?;
+    let off_deg = |subject: &Subject| {
+        let square_rad = wall_behind(world, subject)?;
         Some(rotation::short_turn(ahead - square_rad).abs().to_degrees())
     };
-    let offs: Vec<f64> = segment.constraints.iter().filter_map(off_deg).collect();
+    let about = segment.constraints.iter().flat_map(|constraint| constraint.about(world));
+    let offs: Vec<f64> = about.filter_map(off_deg).collect();
     RAKED_COST * offs.iter().map(|off_deg| ramp(RAKED_DEG, *off_deg)).sum::<f64>() / offs.len().max(1) as f64
 }
 
@@ -191,6 +193,43 @@ fn unsquare_cost(world: &World, segment: &MotionSegment, states: &[CameraState])
         constraint.scope.of(&ends).iter().map(share).fold(0.0, f64::max)
     };
     UNSQUARE_COST * segment.constraints.iter().map(off).fold(0.0, f64::max)
+}
+
+/// Cost of a picture in which what hangs flat on a wall is a trapezoid, and the angles between the view and the wall's normal at
+/// which it begins and is reached, degrees.
+const KEYSTONE_COST: f64 = 1.2;
+const KEYSTONE_DEG: (f64, f64) = (1.0, 45.0);
+/// Height and length of a flat upright thing over its depth.
+const UPRIGHT: f64 = 3.0;
+
+/// Cost of pictures that are about something flat on a wall and do not face it, where no words ask for a side or an angle: pictures,
+/// windows and boards are seen square to their wall and from about their own height.
+fn keystone_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
+    use ConstraintKind::{Backdrop, FromSide, Pitch, Placed};
+    let is_stated =
+        |constraint: &Constraint| matches!(constraint.kind, FromSide(..) | Backdrop(..) | Pitch(_) | Placed(..));
+    if segment.is_join || segment.movement.is_circular() || segment.constraints.iter().any(is_stated) {
+        return 0.0;
+    }
+    let ends = [states[0], states[states.len() - 1]];
+    let off = |subject: &Subject, scope: Scope| {
+        let [long, short] = subject.level_axes(world.frame.up);
+        let least = UPRIGHT * short.length();
+        if long.length() < least || subject.reach(world.frame.up) < least {
+            return None;
+        }
+        let normal = world.frame.direction(wall_behind(world, subject)?);
+        let off_deg = |state: &CameraState| (-state.pose.forward()).angle_between(normal).to_degrees();
+        let of_ends = scope.of(&ends).iter().map(off_deg).fold(0.0, f64::max);
+        // A pan from one to another stands before both rather than before either.
+        Some(ramp(KEYSTONE_DEG, of_ends).powi(2))
+    };
+    let about = |constraint: &Constraint| {
+        let scope = constraint.scope;
+        constraint.about(world).into_iter().filter_map(|subject| off(subject, scope)).collect::<Vec<_>>()
+    };
+    let offs: Vec<f64> = segment.constraints.iter().flat_map(about).collect();
+    KEYSTONE_COST * offs.iter().sum::<f64>() / offs.len().max(1) as f64
 }
 
 /// Cost of a picture from straight above that shows its subject askew, and the pitch from which on a view is one, radians.
@@ -345,8 +384,7 @@ fn widened_cost(segment: &MotionSegment) -> f64 {
 
 /// Cost of a subject that is cut by the edge of the frame at an end for which the words state no size that cuts it.
 fn cut_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f64 {
-    // A tilt and a rise go along what does not fit the picture.
-    if matches!(segment.movement, Move::TiltUp | Move::TiltDown | Move::PedestalUp | Move::PedestalDown) {
+    if goes_along(segment) {
         return 0.0;
     }
     let middle = &states[states.len() / 2];
@@ -367,6 +405,26 @@ fn cut_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f
         ends.iter().filter(holds).map(cut).fold(0.0, f64::max)
     };
     segment.constraints.iter().map(cut_at).fold(0.0, f64::max)
+}
+
+/// Whether a segment goes along what does not fit the picture, as rises do, and tilts that are not from one thing to another.
+fn goes_along(segment: &MotionSegment) -> bool {
+    let shown = |scope: Scope| {
+        segment.constraints.iter().filter(move |constraint| constraint.scope.covers(scope)).filter_map(|constraint| {
+            match constraint.kind {
+                ConstraintKind::Unoccluded(id, _) => Some(id),
+                _ => None,
+            }
+        })
+    };
+    match segment.movement {
+        Move::PedestalUp | Move::PedestalDown => true,
+        Move::TiltUp | Move::TiltDown => {
+            let is_from_another = shown(Scope::Start).all(|id| shown(Scope::End).all(|other| other != id));
+            shown(Scope::Start).next().is_none() || !is_from_another
+        }
+        _ => false,
+    }
 }
 
 /// Cost of a subject whose chin or feet the frame shaves while there is room on the other side, and the room, over the

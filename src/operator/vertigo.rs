@@ -16,7 +16,7 @@ const FAR: f64 = 2.2;
 /// Cost of a subject that swells: whose near side grows over its middle, which the lens keeps at its size; and the growth at
 /// which it begins and is reached.
 const SWOLLEN_COST: f64 = 1.2;
-const SWELLING: (f64, f64) = (1.08, 1.16);
+const SWELLING: (f64, f64) = (1.14, 1.3);
 /// Cost of a dolly zoom in which the background hardly changes its size; factor of that size in the middle of the picture with which
 /// nothing is missing, and with which all is.
 const WEAK_COST: f64 = 0.8;

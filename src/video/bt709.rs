@@ -104,7 +104,23 @@ impl Weights {
 /// `rgb8` must hold `width * height * 3` bytes; width and height must be above 0.
 pub fn planes_from_rgb8(rgb8: &[u8], width: usize, height: usize) -> Planes420 {
     // Integer arithmetic gives the same planes on every instruction set.
-    pulp::Arch::new().dispatch(|| convert(rgb8, width, height))
+    pulp::Arch::new().dispatch(Conversion { rgb8, width, height })
+}
+
+/// The conversion as a value: of a closure of this size only the call would be compiled for the vector instructions.
+struct Conversion<'a> {
+    rgb8: &'a [u8],
+    width: usize,
+    height: usize,
+}
+
+impl pulp::NullaryFnOnce for Conversion<'_> {
+    type Output = Planes420;
+
+    #[inline(always)]
+    fn call(self) -> Planes420 {
+        convert(self.rgb8, self.width, self.height)
+    }
 }
 
 #[inline(always)]

@@ -146,6 +146,9 @@ fn a_shorter_name_is_the_thing_named_before() {
     assert_eq!(slots("push in on <obj-3> on <obj-1>, then pan to <obj-2>"), [3, 1, 2]);
     let objects = [named(1, "table lamp"), named(2, "wooden table")];
     assert_eq!(director.link("pan from the table lamp to the table", &objects).unwrap().slots, [1, 2]);
+    let objects = [named(1, "tool wall"), named(2, "pink toolbox"), named(3, "yellow toolbox")];
+    let fills = "push in on the tool wall until the tools fill the frame, then pan to the pink toolbox";
+    assert_eq!(director.link(fills, &objects).unwrap().slots, [1, 2]);
 }
 
 #[test]

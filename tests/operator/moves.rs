@@ -7,6 +7,7 @@ use cinesplat::operator::{
 use cinesplat::trajectory::{CameraState, Move, ShotAngle, ShotSize};
 use glam::DVec3;
 
+use super::composition::HALF;
 use super::{film, solved, world};
 
 const CENTER: DVec3 = DVec3::new(1.2, 0.6, 0.9);
@@ -70,8 +71,19 @@ fn orbits_sweep_the_stated_angle_at_one_radius() {
 #[test]
 fn a_dolly_zoom_keeps_the_size_of_its_subject() {
     let frames = filmed(Step { start: about(1), ..Step::of(Move::DollyZoomIn) });
-    let size = |s: &CameraState| 1.0 / (s.pose.position.distance(CENTER) * (s.fov_y_rad / 2.0).tan());
-    assert!(frames.iter().all(|s| (size(s) / size(&frames[0]) - 1.0).abs() < 0.01));
+    let corners =
+        (0..8).map(|i| CENTER + HALF * DVec3::from([1, 2, 4].map(|bit| f64::from(i & bit).min(1.0) * 2.0 - 1.0)));
+    let corners: Vec<DVec3> = corners.collect();
+    // Its height in the frame, up to a factor: its near side is what one sees.
+    let height = |s: &CameraState| {
+        let rows = corners.iter().map(|corner| s.pose.to_camera(*corner)).map(|at| at.y / at.z);
+        let (low, high) = rows.fold((f64::MAX, f64::MIN), |(low, high), y| (low.min(y), high.max(y)));
+        (high - low) / (s.fov_y_rad / 2.0).tan()
+    };
+    for state in &frames {
+        let change = height(state) / height(&frames[0]);
+        assert!((change - 1.0).abs() < 0.03, "{change}");
+    }
     let (first, last) = (&frames[0], &frames[frames.len() - 1]);
     assert!(last.fov_y_rad > first.fov_y_rad, "in: the lens widens");
     assert!(last.pose.position.distance(CENTER) < 0.8 * first.pose.position.distance(CENTER));

@@ -5,10 +5,15 @@
 //! the transposed copies for matrix products per head cost more than the products, and candle's own `softmax_last_dim` has
 //! no gradient.
 
+#![allow(clippy::inline_always, reason = "only inlined code is compiled for the vector instructions that pulp selects")]
+
 use std::sync::Arc;
 
 use candle_core::{CpuStorage, CustomOp3, Layout, Result, Shape, Tensor};
+use pulp::{Simd, WithSimd};
 
+use super::exp::exp;
+use super::product::{Place, Sizes, add_product};
 use super::slices::{contiguous, read};
 
 /// Scaled dot-product attention: softmax(q k^T / sqrt(head width) + bias) v over the visible keys.
@@ -21,6 +26,9 @@ pub(super) struct Attention {
     /// Whether a query attends only to keys at its own position and before.
     pub(super) causal: bool,
 }
+
+/// Numbers that a vector register holds. Rows of scores are padded to a multiple of it, so that no loop over them has a rest.
+const LANES: usize = 16;
 
 /// Sizes of one call.
 #[derive(Clone, Copy)]
@@ -43,10 +51,46 @@ impl Dims {
         (self.head_width() as f32).sqrt().recip()
     }
 
-    /// Column of the bias table for a query and a key.
-    fn distance(&self, query: usize, key: usize) -> usize {
+    /// Numbers in a row of scores.
+    fn padded_keys(&self) -> usize {
+        self.keys.next_multiple_of(LANES)
+    }
+
+    /// Numbers in a row of biases by distance from `1 - queries` on.
+    fn span(&self) -> usize {
+        self.queries + self.padded_keys()
+    }
+
+    /// Column of the bias table for a place in such a row.
+    fn distance(&self, place: usize) -> usize {
         let reach = (self.distances / 2) as isize;
-        ((key as isize - query as isize).clamp(-reach, reach) + reach) as usize
+        ((place + 1) as isize - self.queries as isize).clamp(-reach, reach).wrapping_add(reach) as usize
+    }
+
+    /// Where the scores of a query begin in such a row.
+    fn first_place(&self, query: usize) -> usize {
+        self.queries - 1 - query
+    }
+
+    /// Keys and values of an example.
+    fn rows_of(&self, batch: usize) -> std::ops::Range<usize> {
+        let len = self.keys * 2 * self.width;
+        batch * len..(batch + 1) * len
+    }
+
+    /// Columns of the keys and values of an example, from `first` on.
+    fn of_rows(&self, first: usize) -> Place {
+        Place { first, row: 2 * self.width, column: 1 }
+    }
+
+    /// Columns of the queries of an example, from `first` on.
+    fn of_queries(&self, batch: usize, first: usize) -> Place {
+        Place { first: batch * self.queries * self.width + first, row: self.width, column: 1 }
+    }
+
+    /// A matrix with one column per key.
+    fn of_keys(&self) -> Place {
+        Place { first: 0, row: self.padded_keys(), column: 1 }
     }
 }
 
@@ -55,6 +99,80 @@ struct Gradients {
     query: Vec<f32>,
     key_value: Vec<f32>,
     bias: Vec<f32>,
+}
+
+/// The arguments of one call.
+struct Inputs<'a> {
+    query: &'a [f32],
+    key_value: &'a [f32],
+    bias: &'a [f32],
+}
+
+/// What the queries of one head of one example share.
+struct Head {
+    dims: Dims,
+    /// First column of the head.
+    first: usize,
+    /// Transposed keys, scaled, and values: `[head width, padded keys]`.
+    keys_t: Vec<f32>,
+    values_t: Vec<f32>,
+    /// Biases by distance, `[span]`.
+    biases: Vec<f32>,
+    /// 1 for a key that exists, otherwise 0: `[padded keys]`.
+    exists: Vec<f32>,
+    causal: bool,
+}
+
+impl Head {
+    fn new(dims: Dims, causal: bool) -> Self {
+        let transposed = vec![0.0; dims.head_width() * dims.padded_keys()];
+        Self {
+            dims,
+            first: 0,
+            keys_t: transposed.clone(),
+            values_t: transposed,
+            biases: vec![0.0; dims.span()],
+            exists: vec![0.0; dims.padded_keys()],
+            causal,
+        }
+    }
+
+    /// Attention weights of all queries, `[queries, padded keys]`: the softmax of `scale q k^T + bias` over the keys that a
+    /// query sees. `queries` hold the numbers of this head from `first` on, one row per query.
+    #[inline(always)]
+    fn weights<S: Simd>(&self, simd: S, queries: &[f32], first: usize, weights: &mut [f32]) {
+        let (dims, padded) = (self.dims, self.dims.padded_keys());
+        for (query, scores) in weights.chunks_exact_mut(padded).enumerate() {
+            let place = dims.first_place(query);
+            scores.copy_from_slice(&self.biases[place..place + padded]);
+        }
+        let sizes = Sizes { rows: dims.queries, inner: dims.head_width(), columns: padded };
+        let queries = (queries, Place { first, row: dims.width, column: 1 });
+        add_product(simd, sizes, queries, (&self.keys_t, dims.of_keys()), (weights, dims.of_keys()));
+        for (query, scores) in weights.chunks_exact_mut(padded).enumerate() {
+            self.weigh(query, scores);
+        }
+    }
+
+    /// Replaces the scores of a query by its weights.
+    #[inline(always)]
+    fn weigh(&self, query: usize, scores: &mut [f32]) {
+        let seen = if self.causal { (query + 1).min(self.dims.keys) } else { self.dims.keys };
+        let mut top = f32::NEG_INFINITY;
+        for (score, exists) in scores[..seen].iter().zip(&self.exists) {
+            top = if *exists > 0.0 && *score > top { *score } else { top };
+        }
+        if top == f32::NEG_INFINITY {
+            scores.fill(0.0);
+            return;
+        }
+        for (score, exists) in scores.iter_mut().zip(&self.exists) {
+            *score = exists * exp((*score - top).min(0.0));
+        }
+        scores[seen..].fill(0.0);
+        let scale = scores.iter().sum::<f32>().recip();
+        scores.iter_mut().for_each(|score| *score *= scale);
+    }
 }
 
 impl Attention {
@@ -79,204 +197,167 @@ impl Attention {
         Ok(Dims { batch, queries, keys, width, heads: self.heads, distances })
     }
 
-    /// Replaces the `scores` of one query by its attention weights.
-    #[inline(always)]
-    #[allow(
-        clippy::inline_always,
-        reason = "only inlined code is compiled for the vector instructions that pulp selects"
-    )]
-    fn weigh(&self, scores: &mut [f32], batch: usize, query: usize) {
-        let exists = &self.exists[batch * scores.len()..(batch + 1) * scores.len()];
-        let sees = |key: usize| exists[key] && !(self.causal && key > query);
-        let mut top = f32::NEG_INFINITY;
-        for (key, score) in scores.iter().enumerate() {
-            if sees(key) {
-                top = top.max(*score);
-            }
-        }
-        let mut sum = 0.0;
-        for (key, score) in scores.iter_mut().enumerate() {
-            *score = if sees(key) { (*score - top).exp() } else { 0.0 };
-            sum += *score;
-        }
-        let scale = if sum > 0.0 { sum.recip() } else { 0.0 };
-        scores.iter_mut().for_each(|score| *score *= scale);
-    }
-
-    /// Attention weights of one query, in `scores`: the softmax of `scale q k^T + bias`. `keys_t` is `[head width, keys]`.
-    #[inline(always)]
-    #[allow(
-        clippy::inline_always,
-        reason = "only inlined code is compiled for the vector instructions that pulp selects"
-    )]
-    fn weights_of(&self, at: QueryAt, query: &[f32], keys_t: &[f32], bias: &[f32], scores: &mut [f32]) {
-        let dims = at.dims;
-        for (key, score) in scores.iter_mut().enumerate() {
-            *score = bias[at.head * dims.distances + dims.distance(at.query, key)];
-        }
-        for (value, row) in query.iter().zip(keys_t.chunks_exact(dims.keys)) {
-            add_scaled(scores, row, value * dims.scale());
-        }
-        self.weigh(scores, at.batch, at.query);
-    }
-
-    fn forward(&self, dims: Dims, query: &[f32], key_value: &[f32], bias: &[f32]) -> Vec<f32> {
+    fn forward(&self, dims: Dims, inputs: &Inputs<'_>) -> Vec<f32> {
         let mut out = vec![0.0; dims.batch * dims.queries * dims.width];
-        pulp::Arch::new().dispatch(|| self.forward_into(dims, query, key_value, bias, &mut out));
+        pulp::Arch::new().dispatch(Forward { attention: self, dims, inputs, out: &mut out });
         out
     }
 
-    #[inline(always)]
-    #[allow(
-        clippy::inline_always,
-        reason = "only inlined code is compiled for the vector instructions that pulp selects"
-    )]
-    fn forward_into(&self, dims: Dims, query: &[f32], key_value: &[f32], bias: &[f32], out: &mut [f32]) {
-        let (width, head_width) = (dims.width, dims.head_width());
-        let mut keys_t = vec![0.0; head_width * dims.keys];
-        let mut scores = vec![0.0; dims.keys];
-        for batch in 0..dims.batch {
-            let rows = &key_value[batch * dims.keys * 2 * width..(batch + 1) * dims.keys * 2 * width];
-            for head in 0..dims.heads {
-                transpose_columns(rows, 2 * width, head * head_width, &mut keys_t, dims.keys);
-                for query_idx in 0..dims.queries {
-                    let start = (batch * dims.queries + query_idx) * width + head * head_width;
-                    let at = QueryAt { dims, batch, head, query: query_idx };
-                    self.weights_of(at, &query[start..start + head_width], &keys_t, bias, &mut scores);
-                    let out = &mut out[start..start + head_width];
-                    for (weight, row) in scores.iter().zip(rows.chunks_exact(2 * width)) {
-                        let value = width + head * head_width;
-                        add_scaled(out, &row[value..value + head_width], *weight);
-                    }
-                }
-            }
-        }
-    }
-
-    fn backward(&self, dims: Dims, query: &[f32], key_value: &[f32], bias: &[f32], grad: &[f32]) -> Gradients {
+    fn backward(&self, dims: Dims, inputs: &Inputs<'_>, grad: &[f32]) -> Gradients {
         let mut gradients = Gradients {
-            query: vec![0.0; query.len()],
-            key_value: vec![0.0; key_value.len()],
-            bias: vec![0.0; bias.len()],
+            query: vec![0.0; inputs.query.len()],
+            key_value: vec![0.0; inputs.key_value.len()],
+            bias: vec![0.0; inputs.bias.len()],
         };
-        let forward = Inputs { query, key_value, bias };
-        pulp::Arch::new().dispatch(|| self.backward_into(dims, &forward, grad, &mut gradients));
+        pulp::Arch::new().dispatch(Backward { attention: self, dims, inputs, grad, gradients: &mut gradients });
         gradients
     }
 
+    /// Sets `head` to a head of an example, whose keys and values are `rows`.
     #[inline(always)]
-    #[allow(
-        clippy::inline_always,
-        reason = "only inlined code is compiled for the vector instructions that pulp selects"
-    )]
-    fn backward_into(&self, dims: Dims, inputs: &Inputs<'_>, grad: &[f32], gradients: &mut Gradients) {
-        let (width, head_width) = (dims.width, dims.head_width());
-        let mut keys_t = vec![0.0; head_width * dims.keys];
-        let mut values_t = vec![0.0; head_width * dims.keys];
-        let (mut weights, mut slopes) = (vec![0.0; dims.keys], vec![0.0; dims.keys]);
+    fn enter(&self, head: &mut Head, [batch, head_idx]: [usize; 2], rows: &[f32], bias: &[f32]) {
+        let dims = head.dims;
+        head.first = head_idx * dims.head_width();
+        transpose_columns(rows, 2 * dims.width, head.first, &mut head.keys_t, dims.padded_keys());
+        head.keys_t.iter_mut().for_each(|value| *value *= dims.scale());
+        transpose_columns(rows, 2 * dims.width, dims.width + head.first, &mut head.values_t, dims.padded_keys());
+        for (place, out) in head.biases.iter_mut().enumerate() {
+            *out = bias[head_idx * dims.distances + dims.distance(place)];
+        }
+        for (key, out) in head.exists[..dims.keys].iter_mut().enumerate() {
+            *out = f32::from(u8::from(self.exists[batch * dims.keys + key]));
+        }
+    }
+
+    #[inline(always)]
+    fn forward_into<S: Simd>(&self, simd: S, dims: Dims, inputs: &Inputs<'_>, out: &mut [f32]) {
+        let mut head = Head::new(dims, self.causal);
+        let mut weights = vec![0.0; dims.queries * dims.padded_keys()];
         for batch in 0..dims.batch {
-            let range = batch * dims.keys * 2 * width..(batch + 1) * dims.keys * 2 * width;
-            let rows = &inputs.key_value[range.clone()];
-            let grad_rows = &mut gradients.key_value[range];
-            for head in 0..dims.heads {
-                transpose_columns(rows, 2 * width, head * head_width, &mut keys_t, dims.keys);
-                transpose_columns(rows, 2 * width, width + head * head_width, &mut values_t, dims.keys);
-                for query_idx in 0..dims.queries {
-                    let start = (batch * dims.queries + query_idx) * width + head * head_width;
-                    let query = &inputs.query[start..start + head_width];
-                    let grad = &grad[start..start + head_width];
-                    let at = QueryAt { dims, batch, head, query: query_idx };
-                    self.weights_of(at, query, &keys_t, inputs.bias, &mut weights);
-                    score_slopes(grad, &values_t, &weights, &mut slopes);
-                    let grad_query = &mut gradients.query[start..start + head_width];
-                    let parts = Row { at, query, grad, weights: &weights, slopes: &slopes };
-                    parts.spread(rows, grad_rows, grad_query, &mut gradients.bias);
+            let rows = &inputs.key_value[dims.rows_of(batch)];
+            for head_idx in 0..dims.heads {
+                self.enter(&mut head, [batch, head_idx], rows, inputs.bias);
+                let of_queries = dims.of_queries(batch, head.first);
+                head.weights(simd, inputs.query, of_queries.first, &mut weights);
+                let sizes = Sizes { rows: dims.queries, inner: dims.keys, columns: dims.head_width() };
+                let values = (rows, dims.of_rows(dims.width + head.first));
+                add_product(simd, sizes, (&weights, dims.of_keys()), values, (out, of_queries));
+            }
+        }
+    }
+
+    #[inline(always)]
+    fn backward_into<S: Simd>(
+        &self,
+        simd: S,
+        dims: Dims,
+        inputs: &Inputs<'_>,
+        grad: &[f32],
+        gradients: &mut Gradients,
+    ) {
+        let (width, head_width, padded) = (dims.width, dims.head_width(), dims.padded_keys());
+        let mut head = Head::new(dims, self.causal);
+        let mut weights = vec![0.0; dims.queries * padded];
+        let mut slopes = vec![0.0; dims.queries * padded];
+        let mut bias_slopes = vec![0.0; dims.span()];
+        for batch in 0..dims.batch {
+            let rows = &inputs.key_value[dims.rows_of(batch)];
+            let grad_rows = &mut gradients.key_value[dims.rows_of(batch)];
+            for head_idx in 0..dims.heads {
+                self.enter(&mut head, [batch, head_idx], rows, inputs.bias);
+                let of_queries = dims.of_queries(batch, head.first);
+                head.weights(simd, inputs.query, of_queries.first, &mut weights);
+                slopes.fill(0.0);
+                let sizes = Sizes { rows: dims.queries, inner: head_width, columns: padded };
+                add_product(
+                    simd,
+                    sizes,
+                    (grad, of_queries),
+                    (&head.values_t, dims.of_keys()),
+                    (&mut slopes, dims.of_keys()),
+                );
+                bias_slopes.fill(0.0);
+                let of_query = weights.chunks_exact(padded).zip(slopes.chunks_exact_mut(padded)).enumerate();
+                for (query, (weights, slopes)) in of_query {
+                    score_slopes(weights, slopes);
+                    let place = dims.first_place(query);
+                    for (sum, slope) in bias_slopes[place..place + padded].iter_mut().zip(&mut *slopes) {
+                        *sum += *slope;
+                        *slope *= dims.scale();
+                    }
+                }
+                let to_queries = Sizes { rows: dims.queries, inner: dims.keys, columns: head_width };
+                let keys = (rows, dims.of_rows(head.first));
+                add_product(simd, to_queries, (&slopes, dims.of_keys()), keys, (&mut gradients.query, of_queries));
+                let to_rows = Sizes { rows: dims.keys, inner: dims.queries, columns: head_width };
+                let turned = Place { first: 0, row: 1, column: padded };
+                let queries = (inputs.query, of_queries);
+                add_product(simd, to_rows, (&slopes, turned), queries, (grad_rows, dims.of_rows(head.first)));
+                let of_values = dims.of_rows(width + head.first);
+                add_product(simd, to_rows, (&weights, turned), (grad, of_queries), (grad_rows, of_values));
+                let of_head = &mut gradients.bias[head_idx * dims.distances..(head_idx + 1) * dims.distances];
+                for (place, slope) in bias_slopes.iter().enumerate() {
+                    of_head[dims.distance(place)] += slope;
                 }
             }
         }
     }
 }
 
-/// One query of one head.
-#[derive(Clone, Copy)]
-struct QueryAt {
+/// The forward pass as a value: of a closure of this size only the call would be compiled for the vector instructions.
+struct Forward<'a> {
+    attention: &'a Attention,
     dims: Dims,
-    batch: usize,
-    head: usize,
-    query: usize,
+    inputs: &'a Inputs<'a>,
+    out: &'a mut [f32],
 }
 
-/// The arguments of one call.
-struct Inputs<'a> {
-    query: &'a [f32],
-    key_value: &'a [f32],
-    bias: &'a [f32],
-}
+impl WithSimd for Forward<'_> {
+    type Output = ();
 
-/// One query's contribution to the gradients.
-struct Row<'a> {
-    at: QueryAt,
-    query: &'a [f32],
-    grad: &'a [f32],
-    weights: &'a [f32],
-    slopes: &'a [f32],
-}
-
-impl Row<'_> {
-    /// Adds the contribution to the gradients of keys, values, query and biases.
     #[inline(always)]
-    #[allow(
-        clippy::inline_always,
-        reason = "only inlined code is compiled for the vector instructions that pulp selects"
-    )]
-    fn spread(&self, rows: &[f32], grad_rows: &mut [f32], grad_query: &mut [f32], grad_bias: &mut [f32]) {
-        let QueryAt { dims, head, query, .. } = self.at;
-        let (width, head_width, scale) = (dims.width, dims.head_width(), dims.scale());
-        let (key_at, value_at) = (head * head_width, width + head * head_width);
-        for key in 0..dims.keys {
-            if self.weights[key] == 0.0 {
-                continue;
-            }
-            let row = &rows[key * 2 * width..(key + 1) * 2 * width];
-            let grad_row = &mut grad_rows[key * 2 * width..(key + 1) * 2 * width];
-            add_scaled(grad_query, &row[key_at..key_at + head_width], scale * self.slopes[key]);
-            add_scaled(&mut grad_row[key_at..key_at + head_width], self.query, scale * self.slopes[key]);
-            add_scaled(&mut grad_row[value_at..value_at + head_width], self.grad, self.weights[key]);
-            grad_bias[head * dims.distances + dims.distance(query, key)] += self.slopes[key];
-        }
+    fn with_simd<S: Simd>(self, simd: S) {
+        self.attention.forward_into(simd, self.dims, self.inputs, self.out);
     }
 }
 
-/// Derivatives of the loss by the scores: `w (g - sum w g)`, where `g` are the derivatives by the weights `w`.
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "only inlined code is compiled for the vector instructions that pulp selects")]
-fn score_slopes(grad: &[f32], values_t: &[f32], weights: &[f32], slopes: &mut [f32]) {
-    slopes.fill(0.0);
-    for (value, row) in grad.iter().zip(values_t.chunks_exact(weights.len())) {
-        add_scaled(slopes, row, *value);
+/// The backward pass as a value.
+struct Backward<'a> {
+    attention: &'a Attention,
+    dims: Dims,
+    inputs: &'a Inputs<'a>,
+    grad: &'a [f32],
+    gradients: &'a mut Gradients,
+}
+
+impl WithSimd for Backward<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn with_simd<S: Simd>(self, simd: S) {
+        self.attention.backward_into(simd, self.dims, self.inputs, self.grad, self.gradients);
     }
-    let mean: f32 = slopes.iter().zip(weights).map(|(slope, weight)| slope * weight).sum();
+}
+
+/// Replaces derivatives `g` by the weights `w` by those by the scores: `w (g - sum w g)`.
+#[inline(always)]
+fn score_slopes(weights: &[f32], slopes: &mut [f32]) {
     for (slope, weight) in slopes.iter_mut().zip(weights) {
-        *slope = weight * (*slope - mean);
+        *slope *= weight;
+    }
+    let mean: f32 = slopes.iter().sum();
+    for (slope, weight) in slopes.iter_mut().zip(weights) {
+        *slope -= weight * mean;
     }
 }
 
-/// `sum += scale * row`.
+/// Columns of `rows` from `first` on as rows of `out`, which are `padded` long; what is beyond the last row stays.
 #[inline(always)]
-#[allow(clippy::inline_always, reason = "only inlined code is compiled for the vector instructions that pulp selects")]
-fn add_scaled(sum: &mut [f32], row: &[f32], scale: f32) {
-    for (sum, value) in sum.iter_mut().zip(row) {
-        *sum += scale * value;
-    }
-}
-
-/// Columns `first..first + out.len() / count` of `count` rows, transposed.
-#[inline(always)]
-#[allow(clippy::inline_always, reason = "only inlined code is compiled for the vector instructions that pulp selects")]
-fn transpose_columns(rows: &[f32], stride: usize, first: usize, out: &mut [f32], count: usize) {
-    for (column, out) in out.chunks_exact_mut(count).enumerate() {
-        for (row, out) in out.iter_mut().enumerate() {
-            *out = rows[row * stride + first + column];
+fn transpose_columns(rows: &[f32], stride: usize, first: usize, out: &mut [f32], padded: usize) {
+    let columns = out.len() / padded;
+    for (row_idx, row) in rows.chunks_exact(stride).enumerate() {
+        for (column, value) in row[first..first + columns].iter().enumerate() {
+            out[column * padded + row_idx] = *value;
         }
     }
 }
@@ -296,8 +377,12 @@ impl CustomOp3 for Attention {
         bias_layout: &Layout,
     ) -> Result<(CpuStorage, Shape)> {
         let dims = self.dims(query_layout.shape(), key_value_layout.shape(), bias_layout.shape())?;
-        let query = contiguous(query, query_layout)?;
-        let out = self.forward(dims, query, contiguous(key_value, key_value_layout)?, contiguous(bias, bias_layout)?);
+        let inputs = Inputs {
+            query: contiguous(query, query_layout)?,
+            key_value: contiguous(key_value, key_value_layout)?,
+            bias: contiguous(bias, bias_layout)?,
+        };
+        let out = self.forward(dims, &inputs);
         Ok((CpuStorage::F32(out), query_layout.shape().clone()))
     }
 
@@ -311,7 +396,11 @@ impl CustomOp3 for Attention {
     ) -> Result<(Option<Tensor>, Option<Tensor>, Option<Tensor>)> {
         let dims = self.dims(query.shape(), key_value.shape(), bias.shape())?;
         let gradients = read(query, |q| {
-            read(key_value, |kv| read(bias, |b| read(grad, |g| Ok(self.backward(dims, q, kv, b, g)))))
+            read(key_value, |kv| {
+                let backward =
+                    |b: &[f32], g: &[f32]| Ok(self.backward(dims, &Inputs { query: q, key_value: kv, bias: b }, g));
+                read(bias, |b| read(grad, |g| backward(b, g)))
+            })
         })?;
         let tensor = |values: Vec<f32>, like: &Tensor| Tensor::from_vec(values, like.shape(), like.device());
         Ok((

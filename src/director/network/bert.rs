@@ -8,9 +8,10 @@ use candle_core::{DType, Device, Result, Tensor};
 
 use super::attention::Attention;
 use super::config::BertConfig;
+use super::dropout::Dropout;
 use super::gelu::Gelu;
 use super::layer_norm::LayerNorm;
-use super::layers::{Dropout, Linear, Visibility};
+use super::layers::{Linear, Visibility};
 use super::parameters::{Parameters, Start};
 use super::prompt_batch::{NUM_KINDS, PromptBatch};
 

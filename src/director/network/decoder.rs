@@ -9,8 +9,9 @@ use std::sync::Arc;
 use candle_core::{Result, Tensor};
 
 use super::config::ModelConfig;
+use super::dropout::Dropout;
 use super::key_batch::{ANCHOR_WIDTH, KeyBatch};
-use super::layers::{AttentionLayer, Dropout, FeedForward, Linear, Norm, Visibility};
+use super::layers::{AttentionLayer, FeedForward, Linear, Norm, Visibility};
 use super::parameters::{Parameters, Start};
 use crate::codes::{Field, POSE_WIDTH};
 use crate::keys::MAX_KEYS;

@@ -1,51 +1,18 @@
 //! The layers that encoders and decoders are built from.
 
-use std::cell::RefCell;
 use std::sync::Arc;
 
 use candle_core::{Device, Module, Result, Tensor};
 use candle_nn::Activation;
-use rand::Rng;
-use rand_pcg::Pcg64Mcg;
 
 use super::attention::Attention;
+use super::bias::AddBias;
+use super::dropout::Dropout;
 use super::norm::RmsNorm;
 use super::parameters::{Parameters, Start};
 
 /// Largest distance between two tokens that has its own attention bias; larger distances share one.
 const REACH: usize = 24;
-
-/// Dropout: sets random values to zero in training, and does nothing otherwise.
-#[derive(Debug)]
-pub struct Dropout {
-    rate: f32,
-    rng: Option<RefCell<Pcg64Mcg>>,
-}
-
-impl Dropout {
-    /// No dropout.
-    pub fn off() -> Self {
-        Self { rate: 0.0, rng: None }
-    }
-
-    /// Drops a fraction `rate` of the values, 0..1; `rng` selects them.
-    pub fn new(rate: f32, rng: Pcg64Mcg) -> Self {
-        Self { rate, rng: (rate > 0.0).then(|| RefCell::new(rng)) }
-    }
-
-    /// The input with random values set to zero.
-    pub(crate) fn apply(&self, input: &Tensor) -> Result<Tensor> {
-        let Some(rng) = &self.rng else { return Ok(input.clone()) };
-        let keep = 1.0 - self.rate;
-        // One random byte per value: the rate is exact to 1/256.
-        let limit = (keep * 256.0) as u8;
-        let mut bytes = vec![0; input.elem_count()];
-        rng.borrow_mut().fill_bytes(&mut bytes);
-        let scale = 256.0 / f32::from(limit);
-        let mask: Vec<f32> = bytes.iter().map(|byte| if *byte < limit { scale } else { 0.0 }).collect();
-        input.mul(&Tensor::from_vec(mask, input.shape(), &Device::Cpu)?)
-    }
-}
 
 /// `x W + b`.
 #[derive(Debug, Clone)]
@@ -81,7 +48,7 @@ impl Linear {
         let rows = input.elem_count() / from;
         let flat = input.reshape((rows, from))?.matmul(&self.weight)?; // [rows, out]
         let flat = match &self.bias {
-            Some(bias) => flat.broadcast_add(bias)?,
+            Some(bias) => AddBias.apply(&flat, bias)?,
             None => flat,
         };
         if let Some(last) = shape.last_mut() {

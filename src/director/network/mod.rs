@@ -8,8 +8,11 @@
 
 mod attention;
 mod bert;
+mod bias;
 mod config;
 mod decoder;
+mod dropout;
+mod exp;
 mod gelu;
 mod heads;
 mod key_batch;
@@ -19,15 +22,16 @@ mod norm;
 mod objects;
 mod padding;
 mod parameters;
+mod product;
 mod prompt_batch;
 mod slices;
 mod text;
 
 pub use config::{BertConfig, ModelConfig};
 pub use decoder::Memory;
+pub use dropout::Dropout;
 pub use heads::Scores;
 pub use key_batch::{KeyBatch, anchor_objects};
-pub use layers::Dropout;
 pub(crate) use layers::{AttentionLayer, FeedForward, Linear, Norm, Visibility};
 pub use parameters::Parameters;
 pub(crate) use parameters::Start;

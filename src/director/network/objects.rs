@@ -6,7 +6,8 @@
 use candle_core::{Result, Tensor};
 
 use super::config::ModelConfig;
-use super::layers::{AttentionLayer, Dropout, FeedForward, Linear, Norm, Visibility};
+use super::dropout::Dropout;
+use super::layers::{AttentionLayer, FeedForward, Linear, Norm, Visibility};
 use super::parameters::{Parameters, Start};
 use super::prompt_batch::PromptBatch;
 

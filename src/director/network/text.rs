@@ -4,7 +4,8 @@ use candle_core::{DType, Device, Result, Tensor};
 
 use super::bert::Bert;
 use super::config::ModelConfig;
-use super::layers::{AttentionLayer, Dropout, FeedForward, Linear, Norm, Visibility};
+use super::dropout::Dropout;
+use super::layers::{AttentionLayer, FeedForward, Linear, Norm, Visibility};
 use super::parameters::{Parameters, Start};
 use super::prompt_batch::{NUM_KINDS, PromptBatch};
 

@@ -278,8 +278,8 @@ fn crane_between(context: &StepContext, start: &Target, end: &Target, upward: bo
     let seen = Bearing { azimuth_rad: near_side(context, [start, end], &first, seen.azimuth_rad), ..seen };
     let distance = view.pose.position.distance(end.aim);
     let frame = &context.world.frame;
-    // The least rise or fall that shows, over the distance to the end's subject.
-    let least = LEAST_RISE_FRAC * distance;
+    // The least rise or fall that shows, over the distances to the end's subject and to the start's.
+    let least = (LEAST_RISE_FRAC * distance).max(LEAST_RISE_FROM * first.pose.position.distance(start.aim));
     let rise = frame.height(view.pose.position - first.pose.position);
     let lift = if upward { (least - rise).max(0.0) } else { (-least - rise).min(0.0) };
     let sine = (frame.height(view.pose.position - end.aim) + lift) / distance.max(1e-9);
@@ -322,8 +322,9 @@ const CRANE_BESIDE_RAD: f64 = 0.45;
 
 /// Intervals between the keyframes of a crane between two subjects.
 const CRANE_KEYS: u32 = 4;
-/// Least rise of a crane between two subjects, over the distance to the second one.
+/// Least rise of a crane between two subjects, over the distance to the second one at the end and to the first one at the start.
 const LEAST_RISE_FRAC: f64 = 0.3;
+const LEAST_RISE_FROM: f64 = 0.17;
 
 /// Framing of a crane's free start: low enough to rise, or high enough to sink.
 fn opening_for_crane(context: &StepContext, upward: bool) -> Framing {

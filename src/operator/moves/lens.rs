@@ -8,7 +8,7 @@ use crate::framing::{Fill, Target, extent_frac, in_frame_frac};
 use crate::motion::MotionSegment;
 use crate::program::{Amount, Framing};
 use crate::vertigo::swelling;
-use crate::view::{fill_in, lerp, moved, with_fov};
+use crate::view::{aimed, fill_in, lerp, moved, with_fov};
 use cinesplat_trajectory::{CameraState, Move, ShotSize};
 
 /// Narrowest and widest vertical field of view that a move chooses, degrees.
@@ -28,6 +28,9 @@ pub(super) fn zoom(context: &StepContext) -> Vec<MotionSegment> {
         Some(before) => context.turned_to(before, target.aim),
         None => (Vec::new(), context.view(&target, &context.opening_framing_for_zoom(inward), fill, lens)),
     };
+    // What is beside the middle would wander outward, or inward, as the lens zooms.
+    let is_placed = [&context.step.start, &context.step.end].iter().any(|framing| framing.place.is_some());
+    let first = if is_placed || context.before.is_some() { first } else { aimed(context.world, &first, target.aim) };
     let ratio = zoom_ratio(context, &target, &first, inward);
     let tan = (first.fov_y_rad / 2.0).tan() * ratio;
     let limits = (LENS_LIMITS_DEG.0.to_radians(), LENS_LIMITS_DEG.1.to_radians());
@@ -143,6 +146,7 @@ pub(super) fn dolly_zoom(context: &StepContext) -> Vec<MotionSegment> {
     let ratio = if context.world.is_indoor() { kept_in_shape(&target, &first, ratio) } else { ratio };
     let last = moved(&first, first.pose.forward() * distance * (1.0 - ratio));
     let last = with_fov(&last, 2.0 * (tan / ratio).atan());
+    let last = with_fov(&last, 2.0 * ((last.fov_y_rad / 2.0).tan() * grown(context, &target, [&first, &last])).atan());
     let segment = context.segment(vec![first, last]);
     let mut segment = segment.requiring(Scope::All, ConstraintKind::Centered(target.clone(), 0.22));
     let wanted = if inward { (0.0, 0.77) } else { (1.3, f64::INFINITY) };
@@ -153,8 +157,21 @@ pub(super) fn dolly_zoom(context: &StepContext) -> Vec<MotionSegment> {
     segments
 }
 
+/// Factor on a subject's height in the frame from one camera to another, by the points on it: that of its middle stays where the
+/// distance and the lens make up for each other, but what is seen of it from nearby is its near side. 1 where it is unknown.
+fn grown(context: &StepContext, target: &Target, states: [&CameraState; 2]) -> f64 {
+    let points = match target.ids[..] {
+        [id] => context.world.subject(id).map(|subject| &subject.points[..]),
+        _ => None,
+    };
+    let points = points.unwrap_or(&target.corners);
+    let [from, to] = states.map(|state| extent_frac(context.world, state, points).y);
+    let factor = to / from;
+    if factor.is_finite() && factor > 0.0 { factor.clamp(1.0 / MOST_SWELLING, MOST_SWELLING) } else { 1.0 }
+}
+
 /// Most by which the near side of a subject grows over its middle while the lens keeps the size of that.
-const MOST_SWELLING: f64 = 1.1;
+const MOST_SWELLING: f64 = 1.22;
 /// Least change of the distance of a dolly zoom.
 const LEAST_CHANGE: f64 = 0.7;
 

@@ -129,7 +129,7 @@ pub fn train_names(
         };
         let gradients = vars.values().map(gradient).collect::<Result<Vec<_>, _>>()?;
         let rate = learning_rate(step, 100, settings.steps, settings.peak_rate);
-        optimizer.step(&vars, &gradients, rate, &AdamSettings::default())?;
+        optimizer.step(&vars, &gradients, rate, &AdamSettings::default(), 1)?;
         sum += value;
         since += 1.0;
         if optimizer.steps.is_multiple_of(200) || optimizer.steps == settings.steps {

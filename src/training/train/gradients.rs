@@ -4,7 +4,6 @@
 //! that the sum does not depend on which thread is faster.
 
 use std::collections::BTreeMap;
-use std::sync::atomic::{AtomicUsize, Ordering};
 
 use candle_core::{Device, Result, Tensor, Var};
 use rand::SeedableRng;
@@ -12,7 +11,7 @@ use rand_pcg::Pcg64Mcg;
 
 use super::examples::Example;
 use super::loss::{choice_loss, pose_loss};
-use crate::workers::run_on_threads;
+use crate::workers::map_on_threads;
 use cinesplat_director::codes::{POSE_WIDTH, previous_poses};
 use cinesplat_director::network::{Dropout, KeyBatch, ModelConfig, Network, PromptBatch};
 
@@ -53,28 +52,15 @@ impl TrainableNetwork<'_> {
         examples.sort_by_key(|example| (example.poses.is_empty(), example.prompt.tokens.len()));
         let num_keys: usize = examples.iter().map(|example| example.keys.len()).sum();
         let scale = 1.0 / num_keys.max(1) as f64;
-        let parts: Vec<&[Example]> = examples.chunks(settings.part_size.max(1)).collect();
-        let next = AtomicUsize::new(0);
-        let work = |_thread: usize| {
-            let mut results = Vec::new();
-            loop {
-                // The longest first, so that no thread waits for another's long part at the end.
-                let Some(part_idx) = parts.len().checked_sub(1 + next.fetch_add(1, Ordering::Relaxed)) else {
-                    return results;
-                };
-                let part = parts[part_idx];
-                let seed = settings.seed ^ (part_idx as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
-                let dropout = Dropout::new(settings.dropout, Pcg64Mcg::seed_from_u64(seed));
-                results.push((part_idx, self.part(&part.iter().collect::<Vec<_>>(), &dropout, scale)));
-            }
+        // The longest first, so that no thread waits for another's long part at the end.
+        let parts: Vec<_> = examples.chunks(settings.part_size.max(1)).enumerate().rev().collect();
+        let work = |(part_idx, part): (usize, &[Example])| {
+            let seed = settings.seed ^ (part_idx as u64).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+            let dropout = Dropout::new(settings.dropout, Pcg64Mcg::seed_from_u64(seed));
+            self.part(&part.iter().collect::<Vec<_>>(), &dropout, scale)
         };
-        let mut results: Vec<_> = run_on_threads(settings.threads, work).into_iter().flatten().collect();
-        results.sort_by_key(|(part_idx, _)| *part_idx);
-        let mut sum = BatchGradients::default();
-        for (_, result) in results {
-            add(&mut sum, result?);
-        }
-        Ok(sum)
+        let results: Vec<_> = map_on_threads(settings.threads, parts, work).into_iter().rev().collect::<Result<_>>()?;
+        Ok(sum(results, settings.threads))
     }
 
     /// Losses and gradients of one part; every loss is multiplied by `scale`.
@@ -117,16 +103,23 @@ impl TrainableNetwork<'_> {
     }
 }
 
-fn add(sum: &mut BatchGradients, part: BatchGradients) {
-    sum.choice_loss += part.choice_loss;
-    sum.pose_loss += part.pose_loss;
-    if sum.gradients.is_empty() {
-        sum.gradients = part.gradients;
-        return;
+/// The sum of the parts, each parameter's in the order of the parts.
+fn sum(mut parts: Vec<BatchGradients>, threads: usize) -> BatchGradients {
+    let choice_loss = parts.iter().map(|part| part.choice_loss).sum();
+    let pose_loss = parts.iter().map(|part| part.pose_loss).sum();
+    let mut parts = parts.iter_mut().map(|part| std::mem::take(&mut part.gradients));
+    let mut of_parameters: Vec<Vec<Vec<f32>>> =
+        parts.next().unwrap_or_default().into_iter().map(|gradient| vec![gradient]).collect();
+    for gradients in parts {
+        of_parameters.iter_mut().zip(gradients).for_each(|(of_parameter, gradient)| of_parameter.push(gradient));
     }
-    for (sum, part) in sum.gradients.iter_mut().zip(part.gradients) {
-        for (sum, value) in sum.iter_mut().zip(part) {
-            *sum += value;
+    let add = |of_parameter: Vec<Vec<f32>>| {
+        let mut of_parts = of_parameter.into_iter();
+        let mut sum = of_parts.next().unwrap_or_default();
+        for part in of_parts {
+            sum.iter_mut().zip(part).for_each(|(sum, value)| *sum += value);
         }
-    }
+        sum
+    };
+    BatchGradients { choice_loss, pose_loss, gradients: map_on_threads(threads, of_parameters, add) }
 }

@@ -6,6 +6,8 @@ use std::collections::BTreeMap;
 
 use candle_core::{Device, Result, Tensor, Var};
 
+use crate::workers::map_on_threads;
+
 /// Constants of the optimizer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct AdamSettings {
@@ -48,42 +50,48 @@ pub(crate) struct AdamW {
 }
 
 impl AdamW {
-    /// One step against `gradients`, which are in the order of `vars`. Returns the norm of all gradients before clipping.
-    /// If the norm is not finite, the weights stay as they are.
+    /// One step against `gradients`, which are in the order of `vars`, on `threads` threads. Returns the norm of all gradients
+    /// before clipping. If the norm is not finite, the weights stay as they are.
     pub(crate) fn step(
         &mut self,
         vars: &BTreeMap<String, Var>,
         gradients: &[Vec<f32>],
         rate: f32,
         settings: &AdamSettings,
+        threads: usize,
     ) -> Result<f32> {
         self.steps += 1;
-        let squares: f64 = gradients.iter().flatten().map(|g| f64::from(*g) * f64::from(*g)).sum();
-        let norm = squares.sqrt() as f32;
+        let of_one = |gradient: &Vec<f32>| gradient.iter().map(|g| f64::from(*g) * f64::from(*g)).sum::<f64>();
+        let squares = map_on_threads(threads, gradients.iter().collect(), of_one);
+        let norm = squares.iter().sum::<f64>().sqrt() as f32;
         if !norm.is_finite() {
             return Ok(norm);
         }
         let scale = if norm > settings.max_norm { settings.max_norm / norm } else { 1.0 };
         let power = i32::try_from(self.steps).unwrap_or(i32::MAX);
         let unbias = [1.0 - settings.beta1.powi(power), 1.0 - settings.beta2.powi(power)];
-        for ((name, var), gradient) in vars.iter().zip(gradients) {
-            let moments = self.moments.entry(name.clone()).or_default();
-            moments.mean.resize(gradient.len(), 0.0);
-            moments.square.resize(gradient.len(), 0.0);
+        for name in vars.keys() {
+            self.moments.entry(name.clone()).or_default();
+        }
+        let moments = self.moments.iter_mut().filter(|(name, _)| vars.contains_key(*name)).map(|(_, moments)| moments);
+        let parameters = vars.iter().zip(moments).zip(gradients).collect();
+        let update = |(((name, var), moments), gradient): (((&String, &Var), &mut Moments), &Vec<f32>)| {
             let rate = if name.starts_with("bert.") { rate * settings.base_rate_frac } else { rate };
             let decay = if var.rank() >= 2 { rate * settings.weight_decay } else { 0.0 };
             let mut values = var.flatten_all()?.to_vec1::<f32>()?;
-            for (idx, value) in values.iter_mut().enumerate() {
-                let g = gradient[idx] * scale;
-                let mean = settings.beta1 * moments.mean[idx] + (1.0 - settings.beta1) * g;
-                let square = settings.beta2 * moments.square[idx] + (1.0 - settings.beta2) * g * g;
-                moments.mean[idx] = mean;
-                moments.square[idx] = square;
+            moments.mean.resize(gradient.len(), 0.0);
+            moments.square.resize(gradient.len(), 0.0);
+            let of_values = values.iter_mut().zip(gradient).zip(&mut moments.mean).zip(&mut moments.square);
+            for (((value, g), mean), square) in of_values {
+                let g = g * scale;
+                *mean = settings.beta1 * *mean + (1.0 - settings.beta1) * g;
+                *square = settings.beta2 * *square + (1.0 - settings.beta2) * g * g;
                 *value -= decay * *value;
-                *value -= rate * (mean / unbias[0]) / ((square / unbias[1]).sqrt() + settings.epsilon);
+                *value -= rate * (*mean / unbias[0]) / ((*square / unbias[1]).sqrt() + settings.epsilon);
             }
-            var.set(&Tensor::from_vec(values, var.shape(), &Device::Cpu)?)?;
-        }
+            var.set(&Tensor::from_vec(values, var.shape(), &Device::Cpu)?)
+        };
+        map_on_threads(threads, parameters, update).into_iter().collect::<Result<()>>()?;
         Ok(norm)
     }
 }

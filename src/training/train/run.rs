@@ -246,7 +246,7 @@ impl Training<'_> {
         let result = trainable.gradients(&mut examples, &batch)?;
         let rate = self.rate();
         let adam = AdamSettings { base_rate_frac: self.settings.base_rate_frac, ..AdamSettings::default() };
-        let norm = self.optimizer.step(&self.vars, &result.gradients, rate, &adam)?;
+        let norm = self.optimizer.step(&self.vars, &result.gradients, rate, &adam, self.settings.threads)?;
         let found = result.choice_loss + result.pose_loss + f64::from(norm);
         if !found.is_finite() {
             return Err(TrainError::Diverged { step, found });
