@@ -64,7 +64,7 @@ impl Dims {
     /// Column of the bias table for a place in such a row.
     fn distance(&self, place: usize) -> usize {
         let reach = (self.distances / 2) as isize;
-        ((place + 1) as isize - self.queries as isize).clamp(-reach, reach).wrapping_add(reach) as usize
+        (((place + 1) as isize - self.queries as isize).clamp(-reach, reach) + reach) as usize
     }
 
     /// Where the scores of a query begin in such a row.
@@ -158,6 +158,11 @@ impl Head {
     #[inline(always)]
     fn weigh(&self, query: usize, scores: &mut [f32]) {
         let seen = if self.causal { (query + 1).min(self.dims.keys) } else { self.dims.keys };
+        // Damaged weights must show; the exponential below would hide them.
+        if scores[..seen].iter().any(|score| score.is_nan()) {
+            scores.fill(f32::NAN);
+            return;
+        }
         let mut top = f32::NEG_INFINITY;
         for (score, exists) in scores[..seen].iter().zip(&self.exists) {
             top = if *exists > 0.0 && *score > top { *score } else { top };
@@ -408,5 +413,42 @@ impl CustomOp3 for Attention {
             Some(tensor(gradients.key_value, key_value)?),
             Some(tensor(gradients.bias, bias)?),
         ))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use candle_core::Device;
+
+    /// Attention of two queries over three keys, of which the last does not exist.
+    fn attended(query: [f32; 4], causal: bool) -> Vec<f32> {
+        let tensor = |values: &[f32], shape: &[usize]| Tensor::from_slice(values, shape, &Device::Cpu).unwrap();
+        let key_value = tensor(&[1.0, 0.0, 1.0, 10.0, 0.0, 1.0, 2.0, 20.0, 9.0, 9.0, 3.0, 30.0], &[1, 3, 4]);
+        let bias = tensor(&[0.0], &[1, 1]);
+        let attention = Attention { heads: 1, exists: [true, true, false].into(), causal };
+        let out = attention.apply(&tensor(&query, &[1, 2, 2]), &key_value, &bias).unwrap();
+        out.flatten_all().unwrap().to_vec1().unwrap()
+    }
+
+    #[test]
+    fn weights_are_the_softmax_over_the_keys_that_exist() {
+        let out = attended([0.5, -0.25, 0.0, 2.0], false);
+        for (query, out) in [[0.5_f32, -0.25], [0.0, 2.0]].iter().zip(out.chunks_exact(2)) {
+            let [a, b] = query.map(|score| (score / 2.0_f32.sqrt()).exp());
+            let value = (a + 2.0 * b) / (a + b);
+            assert!((out[0] - value).abs() < 1e-5 && (out[1] - 10.0 * value).abs() < 1e-4, "{out:?} {value}");
+        }
+        // The first query sees the first key alone.
+        assert_eq!(attended([0.5, -0.25, 0.0, 2.0], true)[..2], [1.0, 10.0]);
+    }
+
+    #[test]
+    fn numbers_that_are_none_stay_so() {
+        let out = attended([f32::NAN, 0.0, 0.0, 0.0], false);
+        assert!(
+            out[..2].iter().all(|value| value.is_nan()) && out[2..].iter().all(|value| value.is_finite()),
+            "{out:?}"
+        );
     }
 }
