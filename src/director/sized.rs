@@ -11,6 +11,10 @@ use crate::placed::Places;
 const BIG: &str = "big bigger biggest large larger largest tall taller tallest huge giant great";
 const SMALL: &str = "small smaller smallest little tiny short miniature mini";
 
+fn is_size(word: &Word) -> bool {
+    is_listed(BIG, &word.text) || is_listed(SMALL, &word.text)
+}
+
 /// Points mentions of one thing that say its size, which its label does not, at the largest or smallest of its kind that fits
 /// their other words as well.
 pub(crate) fn point_by_size(prompt: &str, objects: &[NamedObject], places: Places<'_>, found: &mut [FoundMention]) {
@@ -22,14 +26,10 @@ pub(crate) fn point_by_size(prompt: &str, objects: &[NamedObject], places: Place
         let told = tokenize(words);
         let says = |list: &str| told.iter().any(|word| is_listed(list, &word.text));
         let (is_big, is_small) = (says(BIG), says(SMALL));
-        let names_none = |word: &Word| {
-            is_listed(BIG, &word.text) || is_listed(SMALL, &word.text) || matches!(word.text.as_str(), "the" | "one")
-        };
+        let names_none = |word: &Word| is_listed("the one", &word.text) || is_size(word);
         let is_same_kind = told.iter().all(names_none);
-        let one = prompt[found.mention.bytes[1]..]
-            .strip_prefix(" one")
-            .filter(|rest| !rest.starts_with(char::is_alphanumeric));
-        if is_same_kind && one.is_some() {
+        let behind = prompt[found.mention.bytes[1]..].strip_prefix(" one");
+        if is_same_kind && behind.is_some_and(|rest| !rest.starts_with(char::is_alphanumeric)) {
             found.mention.bytes[1] += " one".len();
         }
         // `the smaller one` is of the kind that was named before, if there are several of it.
@@ -40,8 +40,7 @@ pub(crate) fn point_by_size(prompt: &str, objects: &[NamedObject], places: Place
         let id = before.filter(|id| is_same_kind && of_several(id)).unwrap_or(id);
         let own = label(objects, id).unwrap_or_default();
         let is_one = told.iter().rev().find(|word| word.is_alphabetic()).is_some_and(|word| word.stem == word.text);
-        let is_sized =
-            |label: &str| tokenize(label).iter().any(|word| is_listed(BIG, &word.text) || is_listed(SMALL, &word.text));
+        let is_sized = |label: &str| tokenize(label).iter().any(is_size);
         let contradicts = |label: &str| {
             let words = tokenize(label);
             words.iter().any(|word: &Word| is_listed(if is_big { SMALL } else { BIG }, &word.text))

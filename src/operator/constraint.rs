@@ -1,5 +1,7 @@
 //! Constraints on the frames of a motion segment. `measure` measures them, `wording` puts them in words.
 
+use std::slice;
+
 use glam::DVec3;
 
 use super::framing::Target;
@@ -111,18 +113,23 @@ pub(super) enum ConstraintKind {
 impl Constraint {
     /// The subject that has to be visible, if that is the requirement.
     pub(super) fn shown<'a>(&self, world: &'a World) -> Option<&'a Subject> {
-        let ConstraintKind::Unoccluded(id, _) = self.kind else { return None };
-        world.subject(id)
+        self.shown_id().and_then(|id| world.subject(id))
     }
 
-    /// The subjects that it wants to be seen, in full or in passing.
-    pub(super) fn about<'a>(&self, world: &'a World) -> Vec<&'a Subject> {
+    /// Its identifier.
+    pub(super) fn shown_id(&self) -> Option<u32> {
+        match self.kind {
+            ConstraintKind::Unoccluded(id, _) => Some(id),
+            _ => None,
+        }
+    }
+
+    /// The identifiers of the subjects that it wants to be seen, in full or in passing.
+    pub(super) fn about(&self) -> &[u32] {
         match &self.kind {
-            ConstraintKind::Unoccluded(id, _) | ConstraintKind::Passed(Pass::Past, id) => {
-                world.subject(*id).into_iter().collect()
-            }
-            ConstraintKind::InFrame(ids, _) => ids.iter().filter_map(|id| world.subject(*id)).collect(),
-            _ => Vec::new(),
+            ConstraintKind::Unoccluded(id, _) | ConstraintKind::Passed(Pass::Past, id) => slice::from_ref(id),
+            ConstraintKind::InFrame(ids, _) => ids,
+            _ => &[],
         }
     }
 }

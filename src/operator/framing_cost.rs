@@ -126,9 +126,14 @@ fn raked_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) ->
         let square_rad = wall_behind(world, subject)?;
         Some(rotation::short_turn(ahead - square_rad).abs().to_degrees())
     };
-    let about = segment.constraints.iter().flat_map(|constraint| constraint.about(world));
-    let offs: Vec<f64> = about.filter_map(off_deg).collect();
-    RAKED_COST * offs.iter().map(|off_deg| ramp(RAKED_DEG, *off_deg)).sum::<f64>() / offs.len().max(1) as f64
+    let about = segment.constraints.iter().flat_map(Constraint::about).filter_map(|id| world.subject(*id));
+    RAKED_COST * mean(about.filter_map(off_deg).map(|off_deg| ramp(RAKED_DEG, off_deg)))
+}
+
+/// Mean of some values; 0 of none.
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (sum, count) = values.fold((0.0, 0), |(sum, count), value| (sum + value, count + 1));
+    sum / f64::from(count.max(1))
 }
 
 /// Cost of a pull-out to the room as a whole that ends near what it leaves, and the sizes of that, the larger of its shares of width and
@@ -224,12 +229,9 @@ fn keystone_cost(world: &World, segment: &MotionSegment, states: &[CameraState])
         // A pan from one to another stands before both rather than before either.
         Some(ramp(KEYSTONE_DEG, of_ends).powi(2))
     };
-    let about = |constraint: &Constraint| {
-        let scope = constraint.scope;
-        constraint.about(world).into_iter().filter_map(|subject| off(subject, scope)).collect::<Vec<_>>()
-    };
-    let offs: Vec<f64> = segment.constraints.iter().flat_map(about).collect();
-    KEYSTONE_COST * offs.iter().sum::<f64>() / offs.len().max(1) as f64
+    let about =
+        segment.constraints.iter().flat_map(|constraint| constraint.about().iter().map(|id| (id, constraint.scope)));
+    KEYSTONE_COST * mean(about.filter_map(|(id, scope)| off(world.subject(*id)?, scope)))
 }
 
 /// Cost of a picture from straight above that shows its subject askew, and the pitch from which on a view is one, radians.
@@ -410,18 +412,14 @@ fn cut_cost(world: &World, segment: &MotionSegment, states: &[CameraState]) -> f
 /// Whether a segment goes along what does not fit the picture, as rises do, and tilts that are not from one thing to another.
 fn goes_along(segment: &MotionSegment) -> bool {
     let shown = |scope: Scope| {
-        segment.constraints.iter().filter(move |constraint| constraint.scope.covers(scope)).filter_map(|constraint| {
-            match constraint.kind {
-                ConstraintKind::Unoccluded(id, _) => Some(id),
-                _ => None,
-            }
-        })
+        let covers = move |constraint: &&Constraint| constraint.scope.covers(scope);
+        segment.constraints.iter().filter(covers).filter_map(Constraint::shown_id)
     };
     match segment.movement {
         Move::PedestalUp | Move::PedestalDown => true,
         Move::TiltUp | Move::TiltDown => {
-            let is_from_another = shown(Scope::Start).all(|id| shown(Scope::End).all(|other| other != id));
-            shown(Scope::Start).next().is_none() || !is_from_another
+            let starts: Vec<u32> = shown(Scope::Start).collect();
+            starts.is_empty() || shown(Scope::End).any(|id| starts.contains(&id))
         }
         _ => false,
     }
@@ -460,10 +458,7 @@ fn short_turn_cost(world: &World, segment: &MotionSegment, states: &[CameraState
         return 0.0;
     }
     let seen_at = |wanted: Scope| {
-        segment.constraints.iter().find_map(move |constraint| match constraint.kind {
-            ConstraintKind::Unoccluded(id, _) if constraint.scope == wanted => Some(id),
-            _ => None,
-        })
+        segment.constraints.iter().filter(|constraint| constraint.scope == wanted).find_map(Constraint::shown_id)
     };
     if seen_at(Scope::Start).is_none() || seen_at(Scope::Start) == seen_at(Scope::End) {
         return 0.0;

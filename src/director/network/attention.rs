@@ -138,16 +138,15 @@ impl Head {
     }
 
     /// Attention weights of all queries, `[queries, padded keys]`: the softmax of `scale q k^T + bias` over the keys that a
-    /// query sees. `queries` hold the numbers of this head from `first` on, one row per query.
+    /// query sees. `queries` are those of this head, one row each.
     #[inline(always)]
-    fn weights<S: Simd>(&self, simd: S, queries: &[f32], first: usize, weights: &mut [f32]) {
+    fn weights<S: Simd>(&self, simd: S, queries: (&[f32], Place), weights: &mut [f32]) {
         let (dims, padded) = (self.dims, self.dims.padded_keys());
         for (query, scores) in weights.chunks_exact_mut(padded).enumerate() {
             let place = dims.first_place(query);
             scores.copy_from_slice(&self.biases[place..place + padded]);
         }
         let sizes = Sizes { rows: dims.queries, inner: dims.head_width(), columns: padded };
-        let queries = (queries, Place { first, row: dims.width, column: 1 });
         add_product(simd, sizes, queries, (&self.keys_t, dims.of_keys()), (weights, dims.of_keys()));
         for (query, scores) in weights.chunks_exact_mut(padded).enumerate() {
             self.weigh(query, scores);
@@ -243,7 +242,7 @@ impl Attention {
             for head_idx in 0..dims.heads {
                 self.enter(&mut head, [batch, head_idx], rows, inputs.bias);
                 let of_queries = dims.of_queries(batch, head.first);
-                head.weights(simd, inputs.query, of_queries.first, &mut weights);
+                head.weights(simd, (inputs.query, of_queries), &mut weights);
                 let sizes = Sizes { rows: dims.queries, inner: dims.keys, columns: dims.head_width() };
                 let values = (rows, dims.of_rows(dims.width + head.first));
                 add_product(simd, sizes, (&weights, dims.of_keys()), values, (out, of_queries));
@@ -271,7 +270,7 @@ impl Attention {
             for head_idx in 0..dims.heads {
                 self.enter(&mut head, [batch, head_idx], rows, inputs.bias);
                 let of_queries = dims.of_queries(batch, head.first);
-                head.weights(simd, inputs.query, of_queries.first, &mut weights);
+                head.weights(simd, (inputs.query, of_queries), &mut weights);
                 slopes.fill(0.0);
                 let sizes = Sizes { rows: dims.queries, inner: head_width, columns: padded };
                 add_product(

@@ -33,25 +33,25 @@ impl Dropout {
         let limit = ((1.0 - self.rate) * 256.0) as u8;
         let mut bytes = vec![0; input.elem_count()];
         rng.borrow_mut().fill_bytes(&mut bytes);
-        input.contiguous()?.apply_op1(Drop { bytes, limit })
+        input.contiguous()?.apply_op1(Mask { bytes, limit })
     }
 }
 
 /// Keeps the values whose byte is below the limit, and scales them so that their mean stays.
 #[derive(Debug)]
-struct Drop {
+struct Mask {
     bytes: Vec<u8>,
     limit: u8,
 }
 
-impl Drop {
+impl Mask {
     fn of(&self, values: &[f32]) -> Vec<f32> {
         let scale = 256.0 / f32::from(self.limit);
         values.iter().zip(&self.bytes).map(|(x, byte)| if *byte < self.limit { x * scale } else { 0.0 }).collect()
     }
 }
 
-impl CustomOp1 for Drop {
+impl CustomOp1 for Mask {
     fn name(&self) -> &'static str {
         "dropout"
     }

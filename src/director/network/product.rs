@@ -10,12 +10,28 @@ use pulp::Simd;
 /// Rows of the product that are computed together.
 const ROWS: usize = 4;
 
-/// Where a matrix lies in a slice: the number in row `r` and column `c` at `first + r * row + c * column`.
+/// Where a matrix lies in a slice.
 #[derive(Clone, Copy)]
 pub(super) struct Place {
+    /// Index of its first number.
     pub(super) first: usize,
+    /// From a number to that below it, and to that beside it.
     pub(super) row: usize,
     pub(super) column: usize,
+}
+
+impl Place {
+    /// Index of a number.
+    #[inline(always)]
+    fn at(self, row: usize, column: usize) -> usize {
+        self.first + row * self.row + column * self.column
+    }
+
+    /// The part of the matrix from a number on, to the right and below.
+    #[inline(always)]
+    fn from(self, row: usize, column: usize) -> Self {
+        Self { first: self.at(row, column), ..self }
+    }
 }
 
 /// Sizes of a product: `[rows, inner] [inner, columns]`.
@@ -26,7 +42,7 @@ pub(super) struct Sizes {
     pub(super) columns: usize,
 }
 
-/// `out += left right`. The columns of `right` and `out` lie side by side, whatever their places say.
+/// `out += left right`. The columns of `right` and `out` must lie side by side.
 #[inline(always)]
 pub(super) fn add_product<S: Simd>(
     simd: S,
@@ -38,13 +54,12 @@ pub(super) fn add_product<S: Simd>(
     let (out, place) = out;
     let mut row = 0;
     while row < sizes.rows {
-        let of_left = (left.0, Place { first: left.1.first + row * left.1.row, ..left.1 });
-        let of_out = Place { first: place.first + row * place.row, ..place };
+        let (left, out) = ((left.0, left.1.from(row, 0)), (&mut *out, place.from(row, 0)));
         if row + ROWS <= sizes.rows {
-            add_rows::<S, ROWS>(simd, sizes, of_left, right, (out, of_out));
+            add_rows::<S, ROWS>(simd, sizes, left, right, out);
             row += ROWS;
         } else {
-            add_rows::<S, 1>(simd, sizes, of_left, right, (out, of_out));
+            add_rows::<S, 1>(simd, sizes, left, right, out);
             row += 1;
         }
     }
@@ -62,17 +77,16 @@ fn add_rows<S: Simd, const N: usize>(
     let (out, place) = out;
     let mut column = 0;
     while column < sizes.columns {
-        let of_right = (right.0, Place { first: right.1.first + column, ..right.1 });
-        let of_out = Place { first: place.first + column, ..place };
+        let (right, out) = ((right.0, right.1.from(0, column)), (&mut *out, place.from(0, column)));
         let rest = sizes.columns - column;
         if rest >= 2 * S::F32_LANES {
-            add_block::<S, N, 2>(simd, sizes.inner, left, of_right, (out, of_out));
+            add_block::<S, N, 2>(simd, sizes.inner, left, right, out);
             column += 2 * S::F32_LANES;
         } else if rest >= S::F32_LANES {
-            add_block::<S, N, 1>(simd, sizes.inner, left, of_right, (out, of_out));
+            add_block::<S, N, 1>(simd, sizes.inner, left, right, out);
             column += S::F32_LANES;
         } else {
-            add_rest::<N>(Sizes { columns: rest, ..sizes }, left, of_right, (out, of_out));
+            add_rest::<N>(Sizes { columns: rest, ..sizes }, left, right, out);
             column += rest;
         }
     }
@@ -91,24 +105,24 @@ fn add_block<S: Simd, const N: usize, const V: usize>(
     let (out, place) = out;
     let mut sums = [[simd.splat_f32s(0.0); V]; N];
     for (n, sums) in sums.iter_mut().enumerate() {
-        let start = place.first + n * place.row;
+        let start = place.at(n, 0);
         let (vectors, _) = S::as_simd_f32s(&out[start..start + width]);
         for (sum, vector) in sums.iter_mut().zip(vectors) {
             *sum = *vector;
         }
     }
     for i in 0..inner {
-        let start = right.1.first + i * right.1.row;
+        let start = right.1.at(i, 0);
         let (vectors, _) = S::as_simd_f32s(&right.0[start..start + width]);
         for (n, sums) in sums.iter_mut().enumerate() {
-            let factor = simd.splat_f32s(left.0[left.1.first + n * left.1.row + i * left.1.column]);
+            let factor = simd.splat_f32s(left.0[left.1.at(n, i)]);
             for (sum, vector) in sums.iter_mut().zip(vectors) {
                 *sum = simd.add_f32s(*sum, simd.mul_f32s(factor, *vector));
             }
         }
     }
     for (n, sums) in sums.iter().enumerate() {
-        let start = place.first + n * place.row;
+        let start = place.at(n, 0);
         let (vectors, _) = S::as_mut_simd_f32s(&mut out[start..start + width]);
         for (sum, vector) in sums.iter().zip(vectors) {
             *vector = *sum;
@@ -121,10 +135,10 @@ fn add_block<S: Simd, const N: usize, const V: usize>(
 fn add_rest<const N: usize>(sizes: Sizes, left: (&[f32], Place), right: (&[f32], Place), out: (&mut [f32], Place)) {
     let (out, place) = out;
     for n in 0..N {
-        let start = place.first + n * place.row;
+        let start = place.at(n, 0);
         for i in 0..sizes.inner {
-            let factor = left.0[left.1.first + n * left.1.row + i * left.1.column];
-            let start_right = right.1.first + i * right.1.row;
+            let factor = left.0[left.1.at(n, i)];
+            let start_right = right.1.at(i, 0);
             let row = &right.0[start_right..start_right + sizes.columns];
             for (sum, value) in out[start..start + sizes.columns].iter_mut().zip(row) {
                 *sum += factor * value;

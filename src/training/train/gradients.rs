@@ -104,22 +104,15 @@ impl TrainableNetwork<'_> {
 }
 
 /// The sum of the parts, each parameter's in the order of the parts.
-fn sum(mut parts: Vec<BatchGradients>, threads: usize) -> BatchGradients {
-    let choice_loss = parts.iter().map(|part| part.choice_loss).sum();
-    let pose_loss = parts.iter().map(|part| part.pose_loss).sum();
-    let mut parts = parts.iter_mut().map(|part| std::mem::take(&mut part.gradients));
-    let mut of_parameters: Vec<Vec<Vec<f32>>> =
-        parts.next().unwrap_or_default().into_iter().map(|gradient| vec![gradient]).collect();
-    for gradients in parts {
-        of_parameters.iter_mut().zip(gradients).for_each(|(of_parameter, gradient)| of_parameter.push(gradient));
-    }
-    let add = |of_parameter: Vec<Vec<f32>>| {
-        let mut of_parts = of_parameter.into_iter();
-        let mut sum = of_parts.next().unwrap_or_default();
-        for part in of_parts {
-            sum.iter_mut().zip(part).for_each(|(sum, value)| *sum += value);
-        }
+fn sum(parts: Vec<BatchGradients>, threads: usize) -> BatchGradients {
+    let add = |(mut sum, part): (Vec<f32>, Vec<f32>)| {
+        sum.iter_mut().zip(part).for_each(|(sum, value)| *sum += value);
         sum
     };
-    BatchGradients { choice_loss, pose_loss, gradients: map_on_threads(threads, of_parameters, add) }
+    let both = |sum: BatchGradients, part: BatchGradients| BatchGradients {
+        choice_loss: sum.choice_loss + part.choice_loss,
+        pose_loss: sum.pose_loss + part.pose_loss,
+        gradients: map_on_threads(threads, sum.gradients.into_iter().zip(part.gradients).collect(), add),
+    };
+    parts.into_iter().reduce(both).unwrap_or_default()
 }

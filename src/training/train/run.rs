@@ -28,7 +28,7 @@ use super::transfer::transfer;
 use crate::corpus::read_folder;
 use crate::dataset::{RealizedShot, read_shards};
 use crate::sampler::PromptSampler;
-use crate::workers::run_on_threads;
+use crate::workers::map_on_threads;
 use cinesplat_director::inputs::Vocabulary;
 use cinesplat_director::network::{Dropout, ModelConfig, Network, Parameters};
 use cinesplat_director::{Director, ModelFiles};
@@ -257,18 +257,9 @@ impl Training<'_> {
     /// The examples of a step, drawn on several threads.
     fn examples(&self, step: u64) -> Result<Vec<Example>, TrainError> {
         let batch = self.settings.batch as u64;
-        let threads = self.settings.threads.max(1);
-        let num_threads = threads as u64;
-        let draw = |thread: usize| -> Result<Vec<Example>, TrainError> {
-            let thread = thread as u64;
-            let share = (batch * thread / num_threads)..(batch * (thread + 1) / num_threads);
-            share.map(|idx| self.sampler.example(self.settings.seed, step * batch + idx)).collect()
-        };
-        let mut examples = Vec::with_capacity(self.settings.batch);
-        for part in run_on_threads(threads, draw) {
-            examples.extend(part?);
-        }
-        Ok(examples)
+        let numbers = (step * batch..(step + 1) * batch).collect();
+        let draw = |number: u64| self.sampler.example(self.settings.seed, number);
+        map_on_threads(self.settings.threads, numbers, draw).into_iter().collect()
     }
 
     fn write_checkpoint(&self) -> Result<(), TrainError> {
