@@ -21,8 +21,8 @@ pub struct Film {
     pub foregrounds: Vec<[f64; 2]>,
     /// Whether the scene surrounds the camera: only there is void a fault.
     pub is_indoor: bool,
-    /// The cost that the operator minimized, 0 or more.
-    pub cost: f64,
+    /// The cost that the operator minimized, per step of the program, 0 or more.
+    pub cost_per_step: f64,
 }
 
 impl Film {
@@ -35,7 +35,7 @@ impl Film {
             sightings: solution.sightings.clone(),
             foregrounds: foregrounds(program, solution),
             is_indoor: world.is_indoor(),
-            cost: solution.cost,
+            cost_per_step: solution.cost / program.steps.len().max(1) as f64,
         }
     }
 
@@ -59,7 +59,7 @@ impl Film {
 /// Paths are equal where their keyframes are.
 impl PartialEq for Film {
     fn eq(&self, other: &Self) -> bool {
-        let key = |film: &Self| (film.duration_secs, film.size_px, film.is_indoor, film.cost);
+        let key = |film: &Self| (film.duration_secs, film.size_px, film.is_indoor, film.cost_per_step);
         self.path.keyframes() == other.path.keyframes()
             && key(self) == key(other)
             && self.sightings == other.sightings

@@ -6,7 +6,7 @@ use super::picture::{Picture, Sight};
 use super::resolution::MAX_SPLAT_FRAC;
 use super::terms::Term;
 
-/// Cost up to which every requirement was met during the search; the mark of the margin is 0 there.
+/// Cost of a step up to which every requirement was met during the search; the mark of the margin is 0 there.
 const WORST_COST: f64 = 3.0;
 /// Splat size, over the size that the picture still holds, from which a picture is soup; and that at which it is sharp.
 const SOUP: f64 = 4.0;
@@ -46,7 +46,7 @@ pub(super) fn value(term: Term, film: &Film, pictures: &[Picture]) -> Option<f64
         Term::Depth => mean(&over(&|picture| (picture.depth_ratio.ln() / DEEP.ln()).min(1.0))),
         Term::Balance => lasting(&over(&|picture| 1.0 - (picture.balance.x.abs() / LOPSIDED).min(1.0))),
         Term::Interest => lasting(&over(&|picture| (picture.interest_frac / RICH).min(1.0))),
-        Term::Margin => Some(1.0 - film.cost / WORST_COST),
+        Term::Margin => Some(1.0 - film.cost_per_step / WORST_COST),
     };
     value.map(|value| value.clamp(0.0, 1.0))
 }

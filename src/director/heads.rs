@@ -13,7 +13,14 @@ pub(crate) fn point_by_heads(prompt: &str, objects: &[NamedObject], places: Plac
         let words = before_place(said(prompt, &found.mention));
         let [id] = found.mention.ids[..] else { continue };
         let (Some(noun), Some(taken)) = (head(words), label(objects, id)) else { continue };
-        if is_number(words) || content(words).len() < 2 || may_mean(&noun, taken) {
+        if is_number(words) || content(words).len() < 2 {
+            continue;
+        }
+        if let Some(id) = called_by_two(words, taken, objects) {
+            found.mention.ids = vec![id];
+            continue;
+        }
+        if may_mean(&noun, taken) {
             continue;
         }
         let center = |id: u32| places.objects.iter().find(|object| object.id == id).map(|object| object.center);
@@ -31,6 +38,19 @@ pub(crate) fn point_by_heads(prompt: &str, objects: &[NamedObject], places: Plac
     }
 }
 
+/// The one thing that the last two words of a name are another name of, where they name the thing that it was taken for not at all:
+/// the `yellow tool board` is the tool wall, and no yellow toolbox.
+fn called_by_two(words: &str, taken: &str, objects: &[NamedObject]) -> Option<u32> {
+    let stems: Vec<String> = tokenize(words).into_iter().map(|word| word.stem).collect();
+    let phrase = stems.get(stems.len().checked_sub(2)?..)?.join(" ");
+    let is_called = |label: &str| Things::embedded().is_related(label, &phrase, &[Relation::Same]);
+    if is_called(taken) || taken.to_lowercase().contains(&phrase) {
+        return None;
+    }
+    let mut called = objects.iter().filter(|object| is_called(&object.label)).map(|object| object.id);
+    called.next().filter(|_| called.next().is_none())
+}
+
 /// Words that lead to where a thing is.
 const PLACES: &str = "on in under above below by near beside behind atop";
 
@@ -46,6 +66,16 @@ mod tests {
     use crate::said::fixture::labelled;
     use cinesplat_language::Mention;
     use glam::DVec3;
+
+    #[test]
+    fn two_words_that_are_another_name_outweigh_a_color() {
+        let objects = labelled(&["tool wall", "yellow toolbox", "dining table", "workbench"]);
+        let called = |words: &str, taken: &str| called_by_two(words, taken, &objects);
+        assert_eq!(called("the yellow tool board", "yellow toolbox"), Some(1));
+        assert_eq!(called("the peg board", "workbench"), Some(1));
+        assert_eq!(called("the tool wall", "tool wall"), None);
+        assert_eq!(called("the yellow box", "yellow toolbox"), None);
+    }
 
     #[test]
     fn the_last_word_of_a_name_says_what_the_thing_is() {

@@ -58,7 +58,8 @@ pub(super) fn cost(world: &World, segment: &MotionSegment, suggestion: Option<&C
     total += crowding_cost(world, segment, &states) + heap_cost(world, segment, &states);
     total += screened_cost(world, segment, &states);
     total += contents_cost(world, segment, &states);
-    total + pictures_cost(world, &states) + suggestion.map_or(0.0, |proposed| deviation(world, &states[0], proposed))
+    total += pictures_cost(world, &segment.constraints, &states);
+    total + suggestion.map_or(0.0, |proposed| deviation(world, &states[0], proposed))
 }
 
 /// Cost of a subject that is hidden, over its hidden share, where enough of it is seen: something in front spoils a

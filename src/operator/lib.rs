@@ -12,6 +12,7 @@
 //! The crate does no IO.
 
 mod as_filmed;
+mod attainable;
 mod capture_region;
 mod captured_side;
 mod clearance;

@@ -2,6 +2,7 @@
 
 use glam::{DVec2, DVec3};
 
+use super::attainable::least_visible;
 use super::composition::{frame_place, off_side_deg};
 use super::constraint::{
     AHEAD_FRAC, BACKDROP_FRAC, BACKDROP_OFF, Constraint, ConstraintKind, FOREGROUND_OFF, PLACE_TOLERANCE, Scope,
@@ -199,6 +200,7 @@ fn visible_share(world: &World, id: u32, least: f64, states: &[CameraState], num
     let mut shares: Vec<f64> = states.iter().map(|s| unoccluded_frac(world, s, subject, num_points)).collect();
     shares.sort_by(f64::total_cmp);
     let least = if num_points <= SEARCH_POINTS { least + SEARCH_MARGIN } else { least };
+    let least = least_visible(world, subject, least);
     let enough = shares.iter().filter(|&&share| share >= least).count() as f64 / shares.len() as f64;
     let hidden = ((1.0 - VISIBLE_FRAMES_FRAC) * shares.len() as f64 + 1e-9) as usize;
     let value = shares[hidden.min(shares.len() - 1)];

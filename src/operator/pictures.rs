@@ -6,7 +6,7 @@ use glam::{DVec2, DVec3, IVec2};
 
 use super::constraint::{Constraint, ConstraintKind};
 use super::program::Pass;
-use super::world::World;
+use super::world::{Subject, World};
 use cinesplat_geometry::{Camera, Intrinsics};
 use cinesplat_trajectory::CameraState;
 
@@ -35,6 +35,8 @@ const EXCESS_BLOCKED_COST: f64 = 1.0;
 const FOREGROUND_FRAC: f64 = 0.33;
 const FREE_FOREGROUND: f64 = 0.1;
 const FOREGROUND_COST: f64 = 1.6;
+/// Margin of the box of a subject, over its radius, within which matter is the subject.
+const BOX_MARGIN: f64 = 0.05;
 /// Cost of a room without depth.
 const SHALLOW_COST: f64 = 0.25;
 /// Cost of a camera below furniture.
@@ -49,14 +51,18 @@ struct Picture {
     shallow: f64,
 }
 
-/// Cost of the pictures of a segment's sampled states: the ends and three moments between.
-pub(super) fn pictures_cost(world: &World, states: &[CameraState]) -> f64 {
+/// Cost of the pictures of a segment's sampled states: the ends and three moments between. What the constraints are about is
+/// no foreground and blocks no lens, however near it is.
+pub(super) fn pictures_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) -> f64 {
+    let about = constraints.iter().flat_map(Constraint::about).filter_map(|id| world.subject(*id));
+    let subjects: Vec<&Subject> = about.collect();
     let last = states.len() - 1;
     let mut picks = vec![0, last / 4, last / 2, last - last / 4, last];
     if states[0] == states[last] && states[0] == states[last / 2] {
         picks.truncate(1);
     }
-    let at = |&i: &usize| picture(world, &states[i], if i == 0 || i == last { END_RAYS } else { INNER_RAYS });
+    let rays = |i: usize| if i == 0 || i == last { END_RAYS } else { INNER_RAYS };
+    let at = |&i: &usize| picture(world, &subjects, &states[i], rays(i));
     let pictures: Vec<Picture> = picks.iter().map(at).collect();
     let worst = |share: fn(&Picture) -> f64| pictures.iter().map(share).fold(0.0, f64::max);
     let mean = |share: fn(&Picture) -> f64| pictures.iter().map(share).sum::<f64>() / pictures.len() as f64;
@@ -74,9 +80,15 @@ pub(super) fn pictures_cost(world: &World, states: &[CameraState]) -> f64 {
     MAX_COST * (sum / MAX_COST).tanh()
 }
 
+/// Share of a picture that other matter than its subjects takes close before the lens.
+pub(super) fn blocked_frac(world: &World, ids: &[u32], state: &CameraState) -> f64 {
+    let subjects: Vec<&Subject> = ids.iter().filter_map(|id| world.subject(*id)).collect();
+    picture(world, &subjects, state, END_RAYS).blocked
+}
+
 /// Void of the worst picture of some cameras, as a share of it.
 pub(super) fn worst_void(world: &World, states: impl Iterator<Item = CameraState>) -> f64 {
-    states.map(|state| picture(world, &state, END_RAYS).void).fold(0.0, f64::max)
+    states.map(|state| picture(world, &[], &state, END_RAYS).void).fold(0.0, f64::max)
 }
 
 /// Which directions around a picture meet no matter: a grid of cells over the frame and a margin around it.
@@ -147,7 +159,7 @@ fn excess(share: f64, limit: f64) -> f64 {
     if share > limit { 0.2 + ((share - limit) / limit).min(1.0) } else { 0.0 }
 }
 
-fn picture(world: &World, state: &CameraState, (columns, rows): (u32, u32)) -> Picture {
+fn picture(world: &World, subjects: &[&Subject], state: &CameraState, (columns, rows): (u32, u32)) -> Picture {
     let (width, height) = (90.0 * world.aspect, 90.0);
     let camera = Camera {
         pose: state.pose,
@@ -157,15 +169,21 @@ fn picture(world: &World, state: &CameraState, (columns, rows): (u32, u32)) -> P
     let each = 1.0 / f64::from(columns * rows);
     let mut out = Picture::default();
     let mut distances = Vec::with_capacity((columns * rows) as usize);
+    let mut others = Vec::with_capacity((columns * rows) as usize);
     for column in 0..columns {
         for row in 0..rows {
             let at = |i: u32, count: u32| (f64::from(i) + 0.5) / f64::from(count);
             let at = DVec2::new(at(column, columns) * width, at(row, rows) * height);
-            match world.hit_distance(state.pose.position, camera.ray(at)) {
+            let ray = camera.ray(at);
+            match world.hit_distance(state.pose.position, ray) {
                 None => out.void += each,
                 Some(distance) => {
                     distances.push(distance);
-                    out.blocked += if distance < near { each } else { 0.0 };
+                    let hit = state.pose.position + ray * distance;
+                    if !subjects.iter().any(|subject| subject.has_in_box(hit, BOX_MARGIN)) {
+                        others.push(distance);
+                        out.blocked += if distance < near { each } else { 0.0 };
+                    }
                     out.shallow += if distance < shallow { each } else { 0.0 };
                 }
             }
@@ -173,8 +191,7 @@ fn picture(world: &World, state: &CameraState, (columns, rows): (u32, u32)) -> P
     }
     distances.sort_by(f64::total_cmp);
     if let Some(middle) = distances.get(distances.len() / 2) {
-        out.foreground =
-            each * distances.iter().filter(|distance| **distance < FOREGROUND_FRAC * middle).count() as f64;
+        out.foreground = each * others.iter().filter(|distance| **distance < FOREGROUND_FRAC * middle).count() as f64;
     }
     out
 }

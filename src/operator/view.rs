@@ -134,10 +134,13 @@ pub(super) fn opening_view(
     parameters: &StepParameters,
 ) -> CameraState {
     let proposed = suggestion.map(|cameras| bearing_of(world, target.aim, cameras.start.pose.position));
-    let azimuth_rad = match stated_azimuths(world, target, framing) {
-        Some((azimuths_rad, spread_rad)) => beside(&azimuths_rad, spread_rad, parameters),
-        None => azimuth(range, proposed, parameters),
+    let free_azimuth = || {
+        let azimuth_rad = azimuth(range, proposed, parameters);
+        let is_plan = framing.angle == Some(ShotAngle::Overhead) && range.overhead_deg == OVERHEAD_DEG;
+        if is_plan { squared(&world.frame, &target.corners, azimuth_rad) } else { azimuth_rad }
     };
+    let azimuth_rad = stated_azimuths(world, target, framing)
+        .map_or_else(free_azimuth, |(azimuths_rad, spread_rad)| beside(&azimuths_rad, spread_rad, parameters));
     let elevation_deg = match framing.angle {
         Some(ShotAngle::High) if lies_low(world, target) => lerp(HIGH_OVER_LOW_DEG, parameters[1]),
         Some(angle) => lerp(elevation_band_deg(angle, range), parameters[1]),
@@ -358,6 +361,14 @@ pub(super) fn azimuth_across(frame: &LevelFrame, a: DVec3, b: DVec3, to_left: bo
     let right = if to_left { -line } else { line };
     // Forward is up x right; the direction from the subject to the camera is its opposite.
     Some(frame.azimuth(right.cross(frame.up)))
+}
+
+/// The azimuth nearest to another one that a picture from straight above needs for a level box: its long side lies across.
+fn squared(frame: &LevelFrame, corners: &[DVec3], azimuth_rad: f64) -> f64 {
+    let sides = broadside_azimuths(frame, corners);
+    let apart = |side: &f64| (side - azimuth_rad + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU);
+    let off = |side: &f64| (apart(side) - std::f64::consts::PI).abs();
+    sides.into_iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(azimuth_rad)
 }
 
 /// Azimuths that face the two broad sides of a box given by its corners; none where the sides are about as wide.

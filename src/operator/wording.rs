@@ -1,5 +1,6 @@
 //! Constraints in words.
 
+use super::attainable::least_visible;
 use super::composition::place_words;
 use super::constraint::{
     BACKDROP_OFF, Constraint, ConstraintKind, FOREGROUND_OFF, PLACE_TOLERANCE, Scope, side_tolerance_deg,
@@ -18,7 +19,10 @@ pub(super) fn wording(world: &World, constraint: &Constraint) -> String {
             format!("{} within {most:.2} of the frame's middle", names(&target.ids))
         }
         ConstraintKind::OnThird(target) => format!("{} on a third of the frame", names(&target.ids)),
-        ConstraintKind::Unoccluded(id, least) => format!("visible share of {} at least {least:.2}", name(id)),
+        ConstraintKind::Unoccluded(id, least) => {
+            let least = world.subject(*id).map_or(*least, |subject| least_visible(world, subject, *least));
+            format!("visible share of {} at least {least:.2}", name(id))
+        }
         ConstraintKind::Height(target, (low, high)) => {
             format!("{} {low:.2} to {high:.2} of the frame's height", names(&target.ids))
         }

@@ -110,6 +110,9 @@ pub(super) struct Subject {
     /// Azimuth from which it is seen square to the wall behind it. [`wall_behind`](super::wall_side::wall_behind) finds it where
     /// it is first needed.
     pub(super) wall_behind_rad: OnceLock<Option<f64>>,
+    /// Share of its points that the best place of a standing person sees.
+    /// [`least_visible`](super::attainable::least_visible) finds it where it is first needed.
+    pub(super) best_seen_frac: OnceLock<f64>,
     /// All Gaussians except its own: what can occlude it.
     others: OpacityGrid,
 }
@@ -347,6 +350,16 @@ pub(super) fn default_camera_radius(bounds: &Bounds) -> f64 {
 }
 
 impl Subject {
+    /// Whether a point lies in its box, which a margin, over its radius, makes larger.
+    pub(super) fn has_in_box(&self, point: DVec3, margin: f64) -> bool {
+        let offset = point - self.center;
+        let spare = margin * self.radius;
+        self.half_axes.iter().all(|axis| {
+            let reach = axis.length();
+            offset.dot(axis.normalize_or_zero()).abs() <= reach + spare
+        })
+    }
+
     fn of(gaussians: &Gaussians, object: &Object, labels: &[u16], grid: &Grid) -> Self {
         let within = |margin: f64| -> Vec<bool> {
             let owns = object.owns(labels, margin);
@@ -387,6 +400,7 @@ impl Subject {
             bearer: None,
             wall_side_rad: OnceLock::new(),
             wall_behind_rad: OnceLock::new(),
+            best_seen_frac: OnceLock::new(),
             others,
         }
     }

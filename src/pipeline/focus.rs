@@ -7,7 +7,7 @@ use cinesplat_geometry::{Camera, Intrinsics};
 use cinesplat_objects::{Object, ObjectSet};
 use cinesplat_render::{RenderError, RenderSettings, Renderer};
 use cinesplat_scene::Scene;
-use cinesplat_trajectory::{Keyframe, Shot};
+use cinesplat_trajectory::{Keyframe, Move, Shot};
 use glam::DVec2;
 
 /// Height of the pictures of depths, pixels.
@@ -90,20 +90,36 @@ impl Seer<'_> {
         Ok(median.map(|median| depth_of_center(view, object) - median))
     }
 
-    /// Moves focus distances from the centers of objects to their surfaces.
+    /// Moves the focus distances of rack focuses from the centers of objects to their surfaces. Before the first rack
+    /// focus and after each one the focus follows the subject of the key, or the last one in focus where a key has none.
     fn refine(&self, objects: &ObjectSet, shot: &mut Shot) -> Result<(), RenderError> {
+        let mut held: Option<&Object> = None;
         for idx in 0..shot.keyframes.len() {
             let key = &shot.keyframes[idx];
-            let Some(distance) = key.focus_distance else { continue };
             let view = shot_camera(shot, key);
-            let apart = |object: &&Object| (depth_of_center(&view, object) - distance).abs();
-            let nearest = objects.objects.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
-            if let Some(object) = nearest.filter(|object| apart(object) < 1e-3 * distance)
-                && let Some(nearer) = self.nearer(&view, object)?
-            {
-                shot.keyframes[idx].focus_distance = Some((distance - nearer).max(1e-3 * distance));
+            let (object, center) = if is_racked(&shot.keyframes, idx) {
+                let Some(distance) = key.focus_distance else { continue };
+                let apart = |object: &&Object| (depth_of_center(&view, object) - distance).abs();
+                let nearest = objects.objects.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)));
+                (nearest.filter(|object| apart(object) < 1e-3 * distance), distance)
+            } else {
+                let own = key.intent.as_ref().and_then(|intent| intent.subjects.first());
+                let Some(object) = own.and_then(|id| objects.get(*id)).or(held) else { continue };
+                (Some(object), depth_of_center(&view, object))
+            };
+            let Some(object) = object else { continue };
+            held = Some(object);
+            let nearer = self.nearer(&view, object)?.unwrap_or(0.0);
+            if center > 0.0 {
+                shot.keyframes[idx].focus_distance = Some((center - nearer).max(1e-3 * center));
             }
         }
         Ok(())
     }
+}
+
+/// Whether a rack focus begins or ends at a key.
+fn is_racked(keys: &[Keyframe], idx: usize) -> bool {
+    let racks = |key: &Keyframe| key.intent.as_ref().is_some_and(|intent| intent.movement == Some(Move::RackFocus));
+    racks(&keys[idx]) || idx > 0 && racks(&keys[idx - 1])
 }

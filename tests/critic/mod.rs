@@ -114,6 +114,6 @@ fn film(from: DVec3, to: DVec3, objects: &[u32]) -> Film {
         sightings: objects.iter().map(|&object| Sighting { object, from_secs: 0.0, to_secs: 10.0 }).collect(),
         foregrounds: Vec::new(),
         is_indoor: true,
-        cost: 0.0,
+        cost_per_step: 0.0,
     }
 }

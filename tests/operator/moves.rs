@@ -265,6 +265,27 @@ fn a_rack_focus_has_one_subject_near_and_the_other_far_behind_it() {
 }
 
 #[test]
+fn a_rack_focus_from_a_close_up_shows_what_it_racks_to() {
+    let close = Framing { size: Some(ShotSize::CloseUp), ..about(2) };
+    let frames = filmed(Step { start: close, end: about(1), ..Step::of(Move::RackFocus) });
+    let state = &frames[0];
+    let [far, near] = [CENTER, DVec3::new(-1.2, 0.5, 0.8)].map(|center| state.pose.to_camera(center));
+    let half = (state.fov_y_rad / 2.0).tan() * far.z;
+    assert!(far.z > near.z, "the close-up is of what is near: {near} {far}");
+    assert!(far.y.abs() < half && far.x.abs() < half * 16.0 / 9.0, "in the frame: {far}");
+}
+
+#[test]
+fn a_zoom_in_does_not_cut_what_it_goes_in_on() {
+    let frames = filmed(Step { end: about(1), ..Step::of(Move::ZoomIn) });
+    let state = &frames[frames.len() - 1];
+    let at = state.pose.to_camera(CENTER + DVec3::new(0.0, 0.6, 0.0));
+    let below = state.pose.to_camera(CENTER - DVec3::new(0.0, 0.6, 0.0));
+    let height = |at: DVec3| at.y / at.z / (2.0 * (state.fov_y_rad / 2.0).tan());
+    assert!(height(at).abs() < 0.5 && height(below).abs() < 0.5, "{} to {}", height(at), height(below));
+}
+
+#[test]
 fn a_descent_from_above_that_circles_keeps_its_distance() {
     let angle = |angle| Framing { angle: Some(angle), ..about(1) };
     let frames = filmed(Step {

@@ -57,6 +57,7 @@ fn a_top_view_below_a_ceiling_stays_in_the_room_with_a_wider_lens() {
     let state = film(&solved(&world, vec![Step { end: overhead(3), ..Step::of(Move::Static) }]))[0];
     let down = (-state.pose.forward().y).asin().to_degrees();
     assert!(down > 75.0 && state.pose.position.y < ROOM.y, "{down} degrees down from {}", state.pose.position);
+    assert!(state.pose.right().x.abs() > 0.99, "the long side lies across: {}", state.pose.right());
 }
 
 #[test]

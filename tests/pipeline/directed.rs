@@ -7,7 +7,7 @@ use cinesplat::pipeline::{
     DirectSettings, FilmChoice, Interpreter, OpenedScene, certify, direct, open_scene, prove_clearance,
 };
 use cinesplat::scene::LoadOptions;
-use cinesplat::trajectory::{ReportLine, Shot};
+use cinesplat::trajectory::{Keyframe, Move, ReportLine, Shot};
 use glam::DVec3;
 use std::path::Path;
 
@@ -66,6 +66,24 @@ fn a_shaky_camera_is_reported_clear_of_matter_although_its_proof_fails() {
             // The search proves what a proof of the finished shot does, with the hand's reach.
             assert_eq!(proof, prove_clearance(&opened.scene, &take).unwrap(), "{prompt}");
         }
+    }
+}
+
+/// What was in focus after a rack focus had stayed at its distance from the camera, wherever that went.
+#[test]
+fn the_focus_follows_the_camera_after_a_rack_focus() {
+    let opened = opened();
+    let prompt = "close-up of the wine glass, rack focus to the globe, then pull out from the globe to a wide shot";
+    for take in takes(&opened, prompt, SolveLevel::Fast) {
+        let focus = |key: &Keyframe| (key.focus_distance.unwrap(), key.pose.position);
+        let racked = take
+            .keyframes
+            .iter()
+            .rposition(|key| key.intent.as_ref().is_some_and(|intent| intent.movement == Some(Move::RackFocus)));
+        let (there, from) = focus(&take.keyframes[racked.unwrap() + 1]);
+        let (last, to) = focus(take.keyframes.last().unwrap());
+        let way = from.distance(to);
+        assert!((last - there - way).abs() < 0.35 * way, "from {there} to {last} on a way of {way}");
     }
 }
 

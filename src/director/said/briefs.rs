@@ -316,6 +316,14 @@ pub(super) fn denied(linked: &Linked, words: &[&str]) -> Vec<u32> {
 /// Most things that one picture brings together.
 const MOST_TOGETHER: usize = 4;
 
+/// Whether words keep what they are about back: `don't show it too early`.
+fn is_held_back(words: &[&str]) -> bool {
+    let is_early =
+        |at: usize| words[at] == "too" && words.get(at + 1).is_some_and(|word| is_listed("early soon", word));
+    let is_denied = |at: usize| words[..at].iter().rev().take(6).any(|word| is_listed(NOT, word));
+    (0..words.len()).any(|at| is_early(at) && is_denied(at))
+}
+
 /// The steps of a film about some things, each of one or of several that are one picture.
 fn about(subjects: &[Vec<u32>], words: &[&str]) -> Vec<Step> {
     let has = |list: &str| words.iter().any(|word| is_listed(list, word));
@@ -325,7 +333,7 @@ fn about(subjects: &[Vec<u32>], words: &[&str]) -> Vec<Step> {
     let angle = has(GRAND).then_some(ShotAngle::Low);
     match subjects {
         // From beside it, far enough that it comes last.
-        [ids] if has(SECRETS) || until_end => {
+        [ids] if has(SECRETS) || until_end || is_held_back(words) => {
             let amount = Some(Amount::Degrees(SURPRISE_DEG));
             vec![Step { end: framed(ids), either_way: true, amount, ..Step::of(Move::PanRight) }]
         }

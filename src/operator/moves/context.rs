@@ -33,6 +33,8 @@ pub(crate) struct StepContext<'a> {
     pub(super) index: usize,
     /// No step follows, or the next one begins with a cut.
     pub(super) is_last: bool,
+    /// The step that follows circles what the camera comes to with this one.
+    pub(super) is_circled_next: bool,
     /// The camera at the end of the step before; `None` at the start and after a cut.
     pub(super) before: Option<CameraState>,
     /// The camera at the start of the whole shot.
@@ -72,12 +74,15 @@ impl<'a> StepContext<'a> {
         };
         let earlier = (0..index).rev().find_map(named);
         let azimuths_rad = preferred_azimuths(world, program, index);
-        let is_last = program.steps.get(index + 1).is_none_or(|next| next.cut);
+        let next = program.steps.get(index + 1).filter(|next| !next.cut);
+        let is_last = next.is_none();
+        let is_circled_next = next.is_some_and(|next| next.movement.is_circular());
         Self {
             world,
             step,
             index,
             is_last,
+            is_circled_next,
             before,
             origin,
             start,

@@ -1,13 +1,13 @@
 //! Moves along the line to a subject: push in and pull out.
 
 use super::context::{NORMAL_LENS_DEG, StepContext, is_stated, require_visible};
-use super::dolly_length::{LEAST_RATIO, WALL_RADII, distance_ratio};
+use super::dolly_length::{LARGEST_OPEN_RATIO, LEAST_RATIO, WALL_RADII, distance_ratio};
 use super::room_view::room_target;
 use super::standing_view::stands;
 use crate::constraint::{ConstraintKind, Scope};
 use crate::framing::{Target, in_frame_frac};
 use crate::motion::MotionSegment;
-use crate::pictures::void_frac;
+use crate::pictures::{blocked_frac, void_frac};
 use crate::program::{Amount, Framing, Motion};
 use crate::view::{aimed, lerp, moved, with_fov};
 use cinesplat_trajectory::{CameraState, Move};
@@ -47,6 +47,7 @@ pub(super) fn dolly(context: &StepContext) -> Vec<MotionSegment> {
     let distance = first.pose.position.distance(target.aim);
     let last = moved(&first, first.pose.forward() * distance * (1.0 - ratio));
     let last = if inward { last } else { within_room(context, &first, distance, last) };
+    let last = if inward { before_matter(context, &target, &first, last) } else { last };
     let (first, last) = within_capture(context, &target, (first, last), inward);
     let taken_in = takes_in(context, inward);
     let last = taken_in.map_or(last, |end| settled_on(context, [&first, &last], &target, end));
@@ -160,15 +161,16 @@ const MOST_BACKED: f64 = 0.7;
 const BACKING_STEP_RAD: f64 = 0.22;
 const NUM_BACKING: i32 = 5;
 
-/// What a pull-out goes back to take in: the whole of another thing than it sets out from, or of the thing of which the step
-/// before showed a part.
+/// What a pull-out goes back to take in: the whole of another thing than it sets out from, of several things, or of the thing of
+/// which the step before showed a part.
 fn takes_in<'a>(context: &'a StepContext, inward: bool) -> Option<&'a Target> {
     let end = context.end.as_ref().filter(|_| !inward && context.step.end.whole)?;
     let start = context.start.as_ref();
     let is_other =
         start.is_some_and(|start| start.ids.first() != end.ids.first()) || start.is_none() && context.before.is_some();
     let left = start.or(context.earlier.as_ref()).and_then(|left| left.ids.first());
-    (is_other && left.is_none_or(|left| !context.step.end.subjects.contains(left))).then_some(end)
+    let is_with_others = end.ids.len() > 1;
+    (is_other && left.is_none_or(|left| is_with_others || !end.ids.contains(left))).then_some(end)
 }
 
 /// The end of a pull-out with its aim on what it takes in, as far as a camera that backs away turns; farther back where that
@@ -287,6 +289,30 @@ fn within_capture(
         }
     }
     if inward { (fullest, last) } else { (first, fullest) }
+}
+
+/// Share of a picture that matter before the subject takes close to the lens from which on a way in stops sooner, and the shares
+/// of the way that it tries then.
+const MOST_BLOCKED: f64 = 0.12;
+const SHARES_BEFORE: [f64; 4] = [0.88, 0.76, 0.64, 0.52];
+
+/// The end of a way in whose end the words leave open, before what stands in front of its subject: a bench at the foot of a bed
+/// would fill the picture.
+fn before_matter(context: &StepContext, target: &Target, first: &CameraState, last: CameraState) -> CameraState {
+    let end = &context.step.end;
+    let is_sized = end.size.is_some() || end.height_frac.is_some() || end.distance.is_some() || end.whole;
+    if is_sized || context.step.amount.is_some() || !context.world.is_indoor() || target.ids.is_empty() {
+        return last;
+    }
+    let is_blocked = |state: &CameraState| blocked_frac(context.world, &target.ids, state) > MOST_BLOCKED;
+    if !is_blocked(&last) {
+        return last;
+    }
+    let distance = |state: &CameraState| state.pose.position.distance(target.aim);
+    let way = last.pose.position - first.pose.position;
+    let sooner = SHARES_BEFORE.iter().map(|share| moved(&last, way * (share - 1.0)));
+    let is_way = |state: &CameraState| distance(state) <= LARGEST_OPEN_RATIO * distance(first);
+    sooner.filter(is_way).find(|state| !is_blocked(state)).unwrap_or(last)
 }
 
 /// The camera before a pull-out of a ratio that ends at `last`.

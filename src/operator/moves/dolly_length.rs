@@ -45,6 +45,20 @@ fn soft_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f6
     subject.map_or(0.0, |subject| subject.splat_size / (reach * SOFT_FRAC))
 }
 
+/// Size in the picture, the larger of its shares of width and height, beyond which a way in whose end the words leave open goes
+/// no farther, and the largest ratio for which it stops.
+const FULLEST: f64 = 0.9;
+/// The same where a circle follows, which sees the subject from sides that may be broader.
+const FULLEST_CIRCLED: f64 = 0.68;
+pub(super) const LARGEST_OPEN_RATIO: f64 = 0.72;
+/// The ratio of the distances, or of the tangents of half the fields of view, beyond which the edges of the frame would cut a
+/// subject that they need not.
+pub(super) fn least_open_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f64 {
+    let now = extent_frac(context.world, first, &target.corners).max_element();
+    let fullest = if context.is_circled_next { FULLEST_CIRCLED } else { FULLEST };
+    (now / fullest).min(LARGEST_OPEN_RATIO)
+}
+
 /// The distance ratio of a push whose end the words leave open: a lone thing fills the picture at the end, and a small thing in a
 /// room is large in it.
 fn open_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f64 {
@@ -53,7 +67,8 @@ fn open_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f6
         return open;
     }
     if context.world.is_indoor() {
-        return open.min(large_ratio(context, target, first).max(NEAREST_RATIO));
+        let large = open.min(large_ratio(context, target, first).max(NEAREST_RATIO));
+        return large.max(least_open_ratio(context, target, first));
     }
     let now = extent_frac(context.world, first, &target.corners).max_element();
     let filling = now / lerp(LONE_END, context.parameters[6]);

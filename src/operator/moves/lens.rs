@@ -1,7 +1,7 @@
 //! Moves of the lens: zoom, dolly zoom.
 
 use super::context::{StepContext, require_visible};
-use super::dolly_length::large_ratio;
+use super::dolly_length::{large_ratio, least_open_ratio};
 use crate::composition::lens_fov_deg;
 use crate::constraint::{ConstraintKind, Scope};
 use crate::framing::{Fill, Target, extent_frac, in_frame_frac};
@@ -74,10 +74,12 @@ fn ends_on_room(context: &StepContext) -> bool {
 /// The ratio of a zoom in without a stated size: a small thing in a room is large in the picture at the end.
 fn inward_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f64 {
     let open = lerp(OPEN_RATIOS, context.parameters[6]);
-    if !context.world.is_indoor() || target.ids.is_empty() {
+    if target.ids.is_empty() {
         return open;
     }
-    open.min(large_ratio(context, target, first).max(NARROWEST_RATIO))
+    let large = || large_ratio(context, target, first).max(NARROWEST_RATIO);
+    let ratio = if context.world.is_indoor() { open.min(large()) } else { open };
+    ratio.max(least_open_ratio(context, target, first))
 }
 
 /// Tangent of half the field of view at the end, over that at the start.

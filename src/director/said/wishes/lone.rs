@@ -44,6 +44,11 @@ const FIRSTS: &str = "first opening start starts started begin begins began begi
 const LASTS: &str = "last closing final end ends ending finish finishes finishing";
 const SAME: &str = "same matches match matching identical equals";
 
+/// Whether a word is one of a film that goes on for ever.
+pub(super) fn is_of_loop(word: &str) -> bool {
+    is_listed(LOOPS, word)
+}
+
 /// Whether words end the film as it began: `loops so the last frame matches the first`.
 pub(super) fn loops(text: &Text<'_>) -> bool {
     let words = &text.words;

@@ -12,8 +12,8 @@ mod things;
 
 use cinesplat_language::{Linked, QuantityKind, Senses, is_listed};
 use cinesplat_objects::Object;
-use cinesplat_operator::{Framing, Speed, Step, SubjectSide};
-use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
+use cinesplat_operator::{Amount, Framing, Speed, Step, SubjectSide};
+use cinesplat_trajectory::{Easing, Move, ShotAngle, ShotSize};
 
 use super::briefs::{denied, is_camera_verb, is_loose, pace};
 use super::directions::{is_form, says_any};
@@ -131,6 +131,34 @@ fn one_move(words: &[&str], steps: &[Step], speed: Speed) -> Option<Step> {
     Some(Step { start, end: last.end.clone(), speed, ..Step::of(Move::PullOut) })
 }
 
+/// Least angle of a turn that ends where it began, degrees.
+const FULL_TURN_DEG: f64 = 350.0;
+
+/// Turns evenly round a thing in a film that is to loop: at rest at its ends it would stop at every repetition.
+pub(crate) fn turn_evenly(linked: &Linked, steps: &mut [Step]) {
+    let [step] = steps else { return };
+    let is_round = matches!(step.movement, Move::OrbitLeft | Move::OrbitRight);
+    let is_full = match step.amount {
+        Some(Amount::Degrees(degrees)) => degrees >= FULL_TURN_DEG,
+        Some(Amount::Large) => true,
+        _ => false,
+    };
+    if is_round && is_full && step.easing.is_none() && repeats(&Text::of(linked).words) {
+        step.easing = Some(Easing::Linear);
+    }
+}
+
+/// Whether a film is to be repeated without a break, as in `it should loop on my website`. `Loop around it` is a circle.
+fn repeats(words: &[&str]) -> bool {
+    let is_circle = |at: usize| {
+        let next = words.get(at + 1).copied().unwrap_or_default();
+        is_listed("around round about back over it", next) || is_object(next)
+    };
+    let is_one = |at: usize| at > 0 && is_listed("a one full single whole big wide slow complete", words[at - 1]);
+    let is_denied = |at: usize| at > 0 && is_listed("no not n't never without", words[at - 1]);
+    (0..words.len()).any(|at| lone::is_of_loop(words[at]) && !is_circle(at) && !is_one(at) && !is_denied(at))
+}
+
 /// The film of the one thing of a scan; `None` where less than two views of it are wanted.
 fn of_lone(
     text: &Text<'_>,
@@ -239,6 +267,16 @@ mod tests {
     fn wish(text: &str) -> bool {
         let linked = Linked { tokens_text: text.to_owned(), ..Linked::default() };
         is_wish(&Text::of(&linked), &linked)
+    }
+
+    #[test]
+    fn a_film_that_repeats_is_no_circle() {
+        let is_said = |text: &str| repeats(&text.split(' ').collect::<Vec<&str>>());
+        assert!(is_said("one full slow turn around <obj-0> , 12 seconds , it should loop on my website"));
+        assert!(is_said("a 360 of <obj-0> that loops"));
+        assert!(!is_said("loop around <obj-0> once"));
+        assert!(!is_said("do a full loop about it"));
+        assert!(!is_said("all around <obj-0> , no loop"));
     }
 
     #[test]
