@@ -28,13 +28,33 @@ pub(crate) fn absorb_backs(grid: &VoxelGrid, flats: Vec<Vec<usize>>, groups: &mu
         let around = contacts(grid, &flat, &owner, 2);
         let mut order: Vec<(usize, usize)> = around.into_iter().collect();
         order.sort_by_key(|&(group, count)| (std::cmp::Reverse(count), group));
-        let holds = |&(group, _): &(usize, usize)| {
-            let touching = |&&v: &&usize| grid.neighbors(v, 2).any(|other| owner[other] == group);
-            flat.iter().filter(touching).count() as f32 >= least
-                && inside_frac(grid, &flat, boxes[group]) >= INSIDE_FRAC
+        let touching = |groups: &[usize]| {
+            let touches = |&&v: &&usize| grid.neighbors(v, 2).any(|other| groups.contains(&owner[other]));
+            flat.iter().filter(touches).count() as f32
         };
-        match order.into_iter().find(holds) {
-            Some((group, _)) => groups[group].voxels.extend(flat),
+        let inside = |groups: &[usize]| {
+            let holder = |&v: &usize| {
+                let holds = |&&group: &&usize| inside_frac(grid, &[v], boxes[group]) > 0.0;
+                groups.iter().find(holds).copied()
+            };
+            flat.iter().map(holder).collect::<Vec<Option<usize>>>()
+        };
+        let holds = |groups: &[usize]| {
+            touching(groups) >= least
+                && inside(groups).iter().flatten().count() as f32 >= INSIDE_FRAC * flat.len() as f32
+        };
+        let all: Vec<usize> = order.iter().map(|&(group, _)| group).collect();
+        let one = all.iter().copied().find(|&group| holds(&[group]));
+        match one {
+            Some(group) => groups[group].voxels.extend(flat),
+            // The backs of shelves side by side.
+            None if all.len() > 1 && holds(&all) => {
+                for (voxel, holder) in flat.iter().zip(inside(&all)) {
+                    if let Some(group) = holder {
+                        groups[group].voxels.push(*voxel);
+                    }
+                }
+            }
             None => others.push(flat),
         }
     }

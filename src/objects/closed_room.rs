@@ -15,13 +15,16 @@ use super::neighbors::separate;
 use super::patches::{add_patches, take_patches};
 use super::pieces::{attach, contacts, diagonal, split};
 use super::planes::ScenePlane;
+use super::rims::add_rims;
 use super::segmentation::components;
 use super::settings::FindSettings;
 use super::shelves::fill_shelves;
+use super::stacked::join_stacked;
 use super::standing::{self, owners};
 use super::tops::{Top, tops};
 use super::voxels::VoxelGrid;
 use super::windows::windows;
+use cinesplat_scene::Gaussians;
 
 /// Least share of a body's voxels that touch a flat thing for the body to be its relief: a handle, a frame.
 const RELIEF_FRAC: f64 = 0.4;
@@ -31,6 +34,9 @@ const BACKGROUND_FRAC: f64 = 0.55;
 
 /// Diagonal of a body, over the room's, above which it is split.
 const SPLIT_FRAC: f64 = 0.42;
+
+/// Largest depth of a thing that hangs on a wall, cells.
+const THIN_CELLS: f32 = 8.0;
 
 /// Least number of voxels of a thing on a top.
 const MIN_ON_TOP: usize = 8;
@@ -45,7 +51,12 @@ const INSIDE_FRAC: f64 = 0.85;
 const CRUMB_FRAC: f64 = 0.01;
 
 /// Groups the voxels of a closed room.
-pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSettings) -> Vec<VoxelGroup> {
+pub(crate) fn group(
+    grid: &VoxelGrid,
+    planes: &[ScenePlane],
+    gaussians: &Gaussians,
+    settings: &FindSettings,
+) -> Vec<VoxelGroup> {
     let mut is_structure = structure(grid, planes, settings);
     let windows = windows(grid, planes);
     let mut is_window = vec![false; grid.voxels.len()];
@@ -59,10 +70,11 @@ pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
     let on_top = owners(grid, tops.iter().map(|top| &top.voxels));
     let bodies = bodies(grid, &free, &tops, settings);
     let patches = take_patches(grid, &mut tops);
-    let (flats, mut bodies) = with_reliefs(grid, flats(grid, planes, &is_structure), bodies);
+    let (flats, mut surfaces) = flats(grid, planes, &is_structure);
+    let (flats, mut bodies) = with_reliefs(grid, flats, bodies);
     add_patches(grid, patches, &mut bodies);
     let max_diagonal = BACKGROUND_FRAC * settings.resolution;
-    let bodies = separate(grid, bodies, &tops);
+    let bodies = separate(grid, gaussians, bodies, &tops);
     let bodies = join_floating(grid, &bodies, &tops, (&is_structure, planes));
     let things = standing::join(grid, &bodies, &tops, (&is_structure, max_diagonal));
     let things = things.voxels.into_iter().zip(things.is_surface);
@@ -74,12 +86,14 @@ pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSett
             && has_shape(grid, &group.voxels)
             && (group.is_surface || diagonal(grid, group.voxels.iter().copied()) <= max_diagonal)
     });
+    join_stacked(grid, &mut groups);
     join_loose(grid, &mut groups);
     let flats = absorb_backs(grid, flats, &mut groups);
     nest(grid, &mut groups, SPLIT_FRAC * settings.resolution);
     fill_shelves(grid, planes, &tops, &mut groups);
     let flat = windows.into_iter().chain(flats).filter(|voxels| has_shape(grid, voxels));
     groups.extend(flat.map(|voxels| VoxelGroup::whole(voxels, false)));
+    add_rims(&mut surfaces, &mut groups);
     groups
 }
 
@@ -162,7 +176,11 @@ fn bodies(grid: &VoxelGrid, free: &[usize], tops: &[Top], settings: &FindSetting
     let mut bodies = Vec::new();
     let mut fragments = Vec::new();
     for component in components(grid, free, 1) {
-        for piece in split(grid, component, max_diagonal, settings) {
+        // Two curtains on one rod are longer than any other thing.
+        let (low, high) = standing::extent(grid, &component);
+        let is_thin = (high - low).x.min((high - low).z) <= THIN_CELLS * grid.cell;
+        let most = if is_thin { BACKGROUND_FRAC * settings.resolution } else { max_diagonal };
+        for piece in split(grid, component, most, settings) {
             if piece.len() < settings.min_voxels { fragments.extend(piece) } else { bodies.push(piece) }
         }
     }

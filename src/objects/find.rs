@@ -13,6 +13,7 @@ use super::boxes;
 use super::color;
 use super::grouping::group;
 use super::groups::VoxelGroup;
+use super::holes::without_holes;
 use super::naming;
 use super::object::{Object, ObjectSet};
 use super::planes::{ScenePlane, find_planes, is_closed_room, room_box};
@@ -44,7 +45,7 @@ pub fn find(scene: &Scene, settings: &FindSettings) -> ObjectSet {
     }
     let (grid, planes, settings) = voxels_and_planes(scene, cell, settings);
     let limit = settings.max_objects.min(usize::from(u16::MAX));
-    let ranked = ranked(&grid, group(&grid, &planes, &settings), limit);
+    let ranked = ranked(&grid, group(&grid, &planes, &scene.gaussians, &settings), limit);
     let labels = gaussian_labels(scene, &grid, &ranked);
     let of_id = |id: u32| {
         ranked.get(id as usize - 1).map_or(Traits::default(), |group| Traits {
@@ -68,16 +69,17 @@ struct Traits {
 /// and smaller still if the room is much smaller than the scene, because windows show what lies far outside.
 fn voxels_and_planes(scene: &Scene, cell: f64, settings: &FindSettings) -> (VoxelGrid, Vec<ScenePlane>, FindSettings) {
     let center = scene.bounds().center();
-    let of_cell = |cell: f64| {
-        let grid = VoxelGrid::new(&scene.gaussians, cell, center, boxes::upright_axes(scene.up));
+    let axes = boxes::upright_axes(scene.up);
+    let with_planes = |grid: VoxelGrid| {
         let planes = find_planes(&grid, (grid.voxels.len() / 300).max(60), settings.seed);
         (grid, planes)
     };
-    let found = of_cell(cell);
+    let found = with_planes(VoxelGrid::new(&scene.gaussians, cell, center, axes));
     if let Some((low, high)) = room_box(&found.1).filter(|_| is_closed_room(&found.1)) {
         let room = f64::from((high - low).length()) / settings.resolution.max(1.0);
         let size = if room < SMALL_ROOM_FRAC * cell && room > 0.0 { room } else { cell };
-        let (grid, planes) = of_cell(size / CLOSED_ROOM_FINENESS);
+        let finer = without_holes(&scene.gaussians, size / CLOSED_ROOM_FINENESS, center, axes);
+        let (grid, planes) = with_planes(finer);
         if is_closed_room(&planes) {
             let resolution = settings.resolution * CLOSED_ROOM_FINENESS;
             let finer = FindSettings { resolution, ..settings.clone() };

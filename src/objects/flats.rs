@@ -8,12 +8,12 @@ use std::collections::{BTreeMap, BTreeSet};
 use glam::{Vec3, Vec3Swizzles};
 
 use super::color;
-use super::median::median;
 use super::outlines::{Rectangle, area, components_within, holds_several, is_in, outline, rectangle, sides};
 use super::planes::{PlaneKind, ScenePlane};
+use super::relief::Surface;
 use super::segmentation::split_by_color;
 use super::standing::mean_color;
-use super::valleys::cut;
+use super::valleys::{cut, cut_at_step};
 use super::voxels::VoxelGrid;
 
 /// Least difference in hue and chroma, and in lightness, between a plane and a thing on it (CIE Lab). Light and shadow
@@ -24,9 +24,12 @@ const LIGHTNESS_DIFFERENCE: f32 = 24.0;
 /// Height over its wall from which a voxel belongs to a thing on it, cells: less than the thickness of a picture.
 const RELIEF_CELLS: f32 = 0.4;
 
-/// The same over a floor, less than the pile of a rug: at least so many median distances of the floor from its own height.
+/// The same where the wall is even, and over an even floor: less than the thickness of a mirror, and than the pile of a rug.
+const WALL_RELIEF_CELLS: f32 = 0.2;
 const PILE_CELLS: f32 = 0.15;
-const NUM_DEVIATIONS: f32 = 5.0;
+
+/// Width of the rim of a rug, cells.
+const RIM_CELLS: usize = 2;
 
 /// Scale and least size of the regions of one color on a plane.
 const SCALE: f32 = 140.0;
@@ -80,13 +83,20 @@ const SUNLIT_FILL: f32 = 0.92;
 const HUNG_VALLEY: f32 = 0.7;
 const STANDING_VALLEY: f32 = 0.5;
 
+/// Least intersection over union of two outlines of one thing.
+const SAME_SHARE: f32 = 0.7;
+
 /// Limit on the things of one plane: a pattern of tiles has more.
 const MAX_THINGS: usize = 14;
 
-/// The flat things on floors and walls among the voxels of the structure, each as voxels.
-pub(crate) fn flats(grid: &VoxelGrid, planes: &[ScenePlane], is_structure: &[bool]) -> Vec<Vec<usize>> {
+/// The flat things on floors and walls among the voxels of the structure, each as voxels, and what is left of the planes.
+pub(crate) fn flats<'a>(
+    grid: &'a VoxelGrid,
+    planes: &'a [ScenePlane],
+    is_structure: &[bool],
+) -> (Vec<Vec<usize>>, Vec<PlaneCells<'a>>) {
     let mut taken = vec![false; grid.voxels.len()];
-    let mut flats = Vec::new();
+    let (mut flats, mut left) = (Vec::new(), Vec::new());
     let has_things = |plane: &&ScenePlane| {
         plane.kind == PlaneKind::Floor || (plane.kind == PlaneKind::Wall && is_seen(planes, plane, grid.cell))
     };
@@ -96,11 +106,14 @@ pub(crate) fn flats(grid: &VoxelGrid, planes: &[ScenePlane], is_structure: &[boo
             is_structure[v] && !taken[v] && plane.height(p).abs() < 2.0 * grid.cell && plane.spans(p)
         };
         let voxels: Vec<usize> = (0..grid.voxels.len()).filter(near).collect();
-        let found = on_plane(grid, plane, &voxels, &split_by_color(grid, &voxels, SCALE, MIN_REGION));
+        let regions = split_by_color(grid, &voxels, SCALE, MIN_REGION);
+        let Some(mut cells) = PlaneCells::new(grid, plane, &voxels, &regions) else { continue };
+        let found = on_plane(&mut cells, &regions);
+        left.push(cells);
         found.iter().flatten().for_each(|&voxel| taken[voxel] = true);
         flats.extend(found);
     }
-    flats
+    (flats, left)
 }
 
 /// Whether no other wall stands before a wall.
@@ -116,17 +129,20 @@ fn is_before(wall: &ScenePlane, other: &ScenePlane, cell: f32) -> bool {
 }
 
 /// The cells of a plane by their position in it.
-struct PlaneCells<'a> {
-    grid: &'a VoxelGrid,
-    plane: &'a ScenePlane,
+pub(crate) struct PlaneCells<'a> {
+    pub(crate) grid: &'a VoxelGrid,
+    pub(crate) plane: &'a ScenePlane,
     color_lab: Vec3,
-    cells: BTreeMap<[i32; 2], Vec<usize>>,
+    /// The voxels of every cell that no thing has taken.
+    pub(crate) cells: BTreeMap<[i32; 2], Vec<usize>>,
     /// Cells whose color differs from the plane's, or that stand out from it.
-    differing: BTreeSet<[i32; 2]>,
-    /// Cells that stand out from a wall.
+    pub(crate) differing: BTreeSet<[i32; 2]>,
+    /// Cells that stand out from the plane.
     raised: BTreeSet<[i32; 2]>,
-    /// Height of every cell over its wall.
-    heights: BTreeMap<[i32; 2], f32>,
+    /// Height of every cell over the plane.
+    pub(crate) heights: BTreeMap<[i32; 2], f32>,
+    /// Height from which a cell stands out.
+    pub(crate) relief: f32,
 }
 
 impl<'a> PlaneCells<'a> {
@@ -134,23 +150,22 @@ impl<'a> PlaneCells<'a> {
     fn new(grid: &'a VoxelGrid, plane: &'a ScenePlane, voxels: &[usize], regions: &[Vec<usize>]) -> Option<Self> {
         // A rug may cover most of a floor, but not its border.
         let is_plane = |v: usize| plane.kind == PlaneKind::Wall || plane.is_border(grid.voxels[v].position);
-        let of_plane = voxels.iter().filter(|&&v| is_plane(v));
-        let color_lab = most_frequent(&of_plane.map(|&v| grid.voxels[v].color_lab).collect::<Vec<Vec3>>())?;
-        let height = |v: usize| plane.height(grid.voxels[v].position);
-        let level = median(voxels.iter().copied().filter(|&v| is_plane(v)).map(height));
-        let deviation = median(voxels.iter().copied().filter(|&v| is_plane(v)).map(|v| (height(v) - level).abs()));
-        let least = if plane.kind == PlaneKind::Wall { RELIEF_CELLS } else { PILE_CELLS };
-        let relief = (least * grid.cell).max(NUM_DEVIATIONS * deviation).min(RELIEF_CELLS * grid.cell);
-        let is_raised = |v: usize| height(v) - level > relief;
+        let of_plane: Vec<usize> = voxels.iter().copied().filter(|&v| is_plane(v)).collect();
+        let color_lab = most_frequent(&of_plane.iter().map(|&v| grid.voxels[v].color_lab).collect::<Vec<Vec3>>())?;
+        let surface = surface(grid, plane, &of_plane);
+        let height = |v: usize| surface.height(in_plane(plane, grid.voxels[v].position));
+        let least = if plane.kind == PlaneKind::Wall { WALL_RELIEF_CELLS } else { PILE_CELLS };
+        let relief = surface.relief.clamp(least * grid.cell, RELIEF_CELLS * grid.cell);
+        let is_raised = |v: usize| height(v) > relief;
         let (cells, differing, raised) = (BTreeMap::new(), BTreeSet::new(), BTreeSet::new());
-        let mut all = Self { grid, plane, color_lab, cells, differing, raised, heights: BTreeMap::new() };
+        let mut all = Self { grid, plane, color_lab, cells, differing, raised, heights: BTreeMap::new(), relief };
         for region in regions {
             let differs = differs(mean_color(grid, region) - color_lab);
             for &v in region {
                 let key = all.key(v);
                 let is_raised = is_raised(v);
                 all.cells.entry(key).or_default().push(v);
-                let height = height(v) - level;
+                let height = height(v);
                 let highest = all.heights.entry(key).or_insert(0.0);
                 *highest = highest.max(height);
                 if is_raised {
@@ -164,15 +179,12 @@ impl<'a> PlaneCells<'a> {
         Some(all)
     }
 
-    fn is_wall(&self) -> bool {
+    pub(crate) fn is_wall(&self) -> bool {
         self.plane.kind == PlaneKind::Wall
     }
 
-    fn key(&self, voxel: usize) -> [i32; 2] {
-        let (along, across) =
-            if self.is_wall() { (Vec3::Y.cross(self.plane.normal), Vec3::Y) } else { (Vec3::X, Vec3::Z) };
-        let p = self.grid.voxels[voxel].position / self.grid.cell;
-        [along.dot(p).floor() as i32, across.dot(p).floor() as i32]
+    pub(crate) fn key(&self, voxel: usize) -> [i32; 2] {
+        key_at(self.grid, self.plane, voxel)
     }
 
     /// The cells that stand out from a wall, without its ends: skirting boards and cornices run along them, and connect
@@ -229,6 +241,41 @@ impl<'a> PlaneCells<'a> {
         is_thing.then_some(outline)
     }
 
+    /// The outlines of the things of some regions.
+    fn outlines_of(&self, regions: &[Vec<[i32; 2]>], is_relief: bool) -> Vec<Vec<[i32; 2]>> {
+        let large = regions.iter().filter(|keys| keys.len() >= MIN_CELLS / 2);
+        large.flat_map(|keys| self.outlines_of_things(keys, is_relief)).collect()
+    }
+
+    /// Adds the cells beside an outline that differ from the floor: the rim of a rug is lower than the rug.
+    fn add_rim(&self, outline: &mut Vec<[i32; 2]>) {
+        let mut held: BTreeSet<[i32; 2]> = outline.iter().copied().collect();
+        for _ in 0..RIM_CELLS {
+            let around = held.iter().flat_map(|&[x, y]| [[x - 1, y], [x + 1, y], [x, y - 1], [x, y + 1]]);
+            let rim: Vec<[i32; 2]> = around.filter(|key| self.differing.contains(key)).collect();
+            held.extend(rim);
+        }
+        *outline = held.into_iter().collect();
+    }
+
+    /// Adds a voxel to what no thing has taken.
+    fn put_back(&mut self, voxel: usize) {
+        self.cells.entry(self.key(voxel)).or_default().push(voxel);
+    }
+
+    /// Takes the voxels in some outlines, those of the largest one first.
+    fn take(&mut self, mut outlines: Vec<Vec<[i32; 2]>>) -> Vec<Vec<usize>> {
+        outlines.sort_by_key(|outline| (std::cmp::Reverse(outline.len()), outline.first().copied()));
+        let mut things = Vec::new();
+        for outline in outlines {
+            let voxels: Vec<usize> = outline.iter().filter_map(|key| self.cells.remove(key)).flatten().collect();
+            if voxels.len() >= MIN_CELLS && voxels.len() as f32 >= MIN_FILL * outline.len() as f32 {
+                things.push(voxels);
+            }
+        }
+        things
+    }
+
     /// The outlines of the things of a region: more than one where the wall is seen between them.
     fn outlines_of_things(&self, keys: &[[i32; 2]], is_relief: bool) -> Vec<Vec<[i32; 2]>> {
         let Some(whole) = self.outline_of_thing(keys, is_relief) else { return Vec::new() };
@@ -236,6 +283,8 @@ impl<'a> PlaneCells<'a> {
         // A door has valleys between its panels.
         let deepest = if self.is_at_foot(bounds) { STANDING_VALLEY } else { HUNG_VALLEY };
         let sides = self.is_wall().then(|| cut(keys, bounds, &self.heights, deepest)).flatten();
+        let hangs = self.is_wall() && !self.is_at_foot(bounds);
+        let sides = sides.or_else(|| hangs.then(|| cut_at_step(&whole, bounds)).flatten());
         let sides = sides.filter(|sides| sides.iter().all(|keys| keys.len() >= MIN_CELLS / 2));
         let apart = sides.map(|sides| sides.map(|keys| self.outlines_of_things(&keys, is_relief)));
         match apart.filter(|apart| apart.iter().all(|outlines| !outlines.is_empty())) {
@@ -274,33 +323,72 @@ impl<'a> PlaneCells<'a> {
     }
 }
 
-fn on_plane(grid: &VoxelGrid, plane: &ScenePlane, voxels: &[usize], regions: &[Vec<usize>]) -> Vec<Vec<usize>> {
-    let Some(mut all) = PlaneCells::new(grid, plane, voxels, regions) else { return Vec::new() };
-    let outlines_of = |regions: Vec<Vec<[i32; 2]>>, is_relief: bool| -> Vec<Vec<[i32; 2]>> {
-        let large = regions.iter().filter(|keys| keys.len() >= MIN_CELLS / 2);
-        large.flat_map(|keys| all.outlines_of_things(keys, is_relief)).collect()
-    };
-    // A rug has several colors; what hangs on a wall is one region of color, or stands out from it.
-    let (raised, colored) = if all.is_wall() {
-        let regions = regions.iter().map(|region| region.iter().map(|&v| all.key(v)).collect()).collect();
-        (components(all.raised_apart()), regions)
-    } else {
-        (components(all.raised.clone()), components(all.differing.clone()))
-    };
-    let (raised, mut outlines) = (outlines_of(raised, true), outlines_of(colored, false));
-    if all.is_wall() {
-        outlines.retain(|outline| all.is_at_foot(rectangle(outline)) || !holds_several(outline, &raised, MIN_FILL));
-    }
-    outlines.extend(raised);
-    outlines.sort_by_key(|outline| (std::cmp::Reverse(outline.len()), outline.first().copied()));
-    let mut things = Vec::new();
-    for outline in outlines {
-        let voxels: Vec<usize> = outline.iter().filter_map(|key| all.cells.remove(key)).flatten().collect();
-        if voxels.len() >= MIN_CELLS && voxels.len() as f32 >= MIN_FILL * outline.len() as f32 {
-            things.push(voxels);
+/// A position along a plane, over it, and across it.
+fn in_plane(plane: &ScenePlane, p: Vec3) -> Vec3 {
+    let is_wall = plane.kind == PlaneKind::Wall;
+    let (along, across) = if is_wall { (Vec3::Y.cross(plane.normal), Vec3::Y) } else { (Vec3::X, Vec3::Z) };
+    Vec3::new(along.dot(p), plane.height(p), across.dot(p))
+}
+
+/// The cell of a voxel in a plane.
+fn key_at(grid: &VoxelGrid, plane: &ScenePlane, voxel: usize) -> [i32; 2] {
+    let p = in_plane(plane, grid.voxels[voxel].position) / grid.cell;
+    [p.x.floor() as i32, p.z.floor() as i32]
+}
+
+/// The surface of most of a plane: the plane's own is that of all that lies near it.
+fn surface(grid: &VoxelGrid, plane: &ScenePlane, voxels: &[usize]) -> Surface {
+    let mut highest: BTreeMap<[i32; 2], Vec3> = BTreeMap::new();
+    for &voxel in voxels {
+        let p = in_plane(plane, grid.voxels[voxel].position);
+        let held = highest.entry(key_at(grid, plane, voxel)).or_insert(p);
+        if p.y > held.y {
+            *held = p;
         }
     }
-    if things.len() > MAX_THINGS { Vec::new() } else { things }
+    Surface::of_points(&highest.into_values().collect::<Vec<Vec3>>(), grid.cell)
+}
+
+/// Takes the voxels of the things on a plane; `regions` are those of one color.
+fn on_plane(all: &mut PlaneCells, regions: &[Vec<usize>]) -> Vec<Vec<usize>> {
+    // A rug has several colors; what hangs on a wall is one region of color, or stands out from it.
+    let things = if all.is_wall() {
+        let colored: Vec<Vec<[i32; 2]>> =
+            regions.iter().map(|region| region.iter().map(|&v| all.key(v)).collect()).collect();
+        let raised = all.outlines_of(&components(all.raised_apart()), true);
+        let mut outlines = all.outlines_of(&colored, false);
+        outlines.retain(|outline| all.is_at_foot(rectangle(outline)) || !holds_several(outline, &raised, MIN_FILL));
+        // Of a thing that was found twice, what stands out is more exact: its color goes on in frames beside it.
+        outlines.retain(|outline| {
+            all.is_at_foot(rectangle(outline)) || !raised.iter().any(|other| is_same(outline, other))
+        });
+        outlines.extend(raised);
+        all.take(outlines)
+    } else {
+        // Sunlight and shade beside a rug are no part of it.
+        let mut raised = all.outlines_of(&components(all.raised.clone()), true);
+        raised.iter_mut().for_each(|outline| all.add_rim(outline));
+        let of_raised: BTreeSet<[i32; 2]> = raised.iter().flatten().copied().collect();
+        let mut things = all.take(raised);
+        let colored = all.differing.difference(&of_raised).copied().collect();
+        let colored = all.outlines_of(&components(colored), false);
+        things.extend(all.take(colored));
+        things
+    };
+    if things.len() > MAX_THINGS {
+        for voxel in things.into_iter().flatten() {
+            all.put_back(voxel);
+        }
+        return Vec::new();
+    }
+    things
+}
+
+/// Whether two outlines share most of their cells.
+fn is_same(one: &[[i32; 2]], other: &[[i32; 2]]) -> bool {
+    let held: BTreeSet<&[i32; 2]> = one.iter().collect();
+    let shared = other.iter().filter(|key| held.contains(key)).count() as f32;
+    shared >= SAME_SHARE * (one.len() + other.len()) as f32 / (1.0 + SAME_SHARE)
 }
 
 /// Whether a color step (CIE Lab) is that between two things.

@@ -53,8 +53,10 @@ pub(crate) fn join_floating(
     let carrier = |body: usize| match hold(grid, &bodies[body], (body, &owner)) {
         Hold::Body(carrier) => Some(carrier).filter(|&carrier| lowest[carrier] < lowest[body]),
         Hold::BodyUnderTop(carrier) => Some(carrier).filter(|&carrier| {
-            let is_upright = is_on_axis(grid, extents[carrier], extents[body]) && is_round(extents[body]);
-            lowest[carrier] < lowest[body] && is_upright
+            let (foot, own) = (extents[carrier], extents[body]);
+            // The stem of a plant is thinner than its pot.
+            let is_upright = is_on_axis(grid, foot, own) || (is_on_axis(grid, own, foot) && is_round(foot));
+            lowest[carrier] < lowest[body] && is_upright && is_round(own)
         }),
         Hold::Nothing => foot_below(grid, &extents, body).or_else(|| beside(grid, &bodies[body], (body, &owner))),
         // The crown of a plant in a corner leans on the walls.
@@ -144,13 +146,17 @@ const ALIGNED_FRAC: f32 = 0.15;
 /// Largest gap between a body and its foot, over the height of the body: what hangs over a table is farther from it.
 const MAX_GAP: f32 = 1.5;
 
+/// Largest depth of a body in its foot, over the height of the body: leaves hang over the rim of a pot.
+const SUNK_FRAC: f32 = 0.15;
+
 /// The body under a body that touches nothing, on the same upright axis: the foot of a lamp whose pole was not captured.
 fn foot_below(grid: &VoxelGrid, extents: &[(Vec3, Vec3)], body: usize) -> Option<usize> {
     let (low, high) = extents[body];
     let is_foot = |&other: &usize| {
         let top = extents[other].1.y;
-        let is_near = low.y - top <= MAX_GAP * (high.y - low.y);
-        other != body && top < low.y && is_near && is_on_axis(grid, extents[other], extents[body])
+        let height = high.y - low.y;
+        let is_near = (-SUNK_FRAC * height..=MAX_GAP * height).contains(&(low.y - top));
+        other != body && is_near && is_on_axis(grid, extents[other], extents[body])
     };
     (0..extents.len()).filter(is_foot).max_by(|&a, &b| extents[a].1.y.total_cmp(&extents[b].1.y).then(b.cmp(&a)))
 }

@@ -11,16 +11,22 @@ use super::settings::FindSettings;
 use super::surroundings::surrounds;
 use super::voxels::VoxelGrid;
 use super::{closed_room, open_room};
+use cinesplat_scene::Gaussians;
 
 /// Groups the voxels of a scene into objects, by the kind of capture: a closed room has a floor, and a ceiling or
 /// walls on four sides; an open room has walls; every other capture shows single things, each a connected component.
-pub(crate) fn group(grid: &VoxelGrid, planes: &[ScenePlane], settings: &FindSettings) -> Vec<VoxelGroup> {
+pub(crate) fn group(
+    grid: &VoxelGrid,
+    planes: &[ScenePlane],
+    gaussians: &Gaussians,
+    settings: &FindSettings,
+) -> Vec<VoxelGroup> {
     let is_wall = |plane: &ScenePlane| matches!(plane.kind, PlaneKind::Wall | PlaneKind::Ceiling);
     let has_walls = planes.iter().any(is_wall);
     // The sides and the back of an armchair are walls only from its seat.
     let is_room = has_walls && surrounds(grid);
     if is_room && is_closed_room(planes) {
-        return to_detail(grid, closed_room::group(grid, planes, settings), settings, 2);
+        return to_detail(grid, closed_room::group(grid, planes, gaussians, settings), settings, 2);
     }
     if is_room {
         return to_detail(grid, open_room::group(grid, planes, settings), settings, 2);

@@ -5,12 +5,14 @@
 
 use std::collections::BTreeMap;
 
+use super::closer::seen_closer;
 use super::color;
 use super::pieces::{contacts, diagonal};
 use super::segmentation::split_by_color;
 use super::standing::{lowest, mean_color, owners};
 use super::tops::Top;
 use super::voxels::VoxelGrid;
+use cinesplat_scene::Gaussians;
 
 /// Scale and least size of the regions of one color of a body.
 const SCALE: f32 = 140.0;
@@ -30,7 +32,12 @@ const MIN_DIFFERENCE: f32 = 12.0;
 const MAX_TOUCHING: f32 = 0.3;
 
 /// The bodies, each thing on a top apart.
-pub(crate) fn separate(grid: &VoxelGrid, bodies: Vec<Vec<usize>>, tops: &[Top]) -> Vec<Vec<usize>> {
+pub(crate) fn separate(
+    grid: &VoxelGrid,
+    gaussians: &Gaussians,
+    bodies: Vec<Vec<usize>>,
+    tops: &[Top],
+) -> Vec<Vec<usize>> {
     let on_top = owners(grid, tops.iter().map(|top| &top.voxels));
     let stands = |voxel: usize| {
         let level = grid.voxels[voxel].key[1];
@@ -41,7 +48,7 @@ pub(crate) fn separate(grid: &VoxelGrid, bodies: Vec<Vec<usize>>, tops: &[Top]) 
         let near = body.iter().flat_map(|&voxel| grid.neighbors(voxel, 1)).map(|other| on_top[other]);
         near.filter(|&top| top != usize::MAX).map(|top| tops[top].height).fold(f32::INFINITY, f32::min)
     };
-    let mut apart = Vec::new();
+    let (mut apart, mut close) = (Vec::new(), Vec::new());
     for body in bodies {
         let is_small = || diagonal(grid, body.iter().copied()) <= MAX_DIAGONAL;
         let is_on_top = || lowest(grid, &body) > top_under(&body) - SUNK_CELLS * grid.cell;
@@ -49,9 +56,11 @@ pub(crate) fn separate(grid: &VoxelGrid, bodies: Vec<Vec<usize>>, tops: &[Top]) 
             apart.push(body);
         } else {
             let pieces = split_by_color(grid, &body, SCALE, MIN_VOXELS);
-            apart.extend(join_pieces(grid, pieces, |piece| standing(piece) >= MIN_STANDING));
+            close.extend(join_pieces(grid, pieces, |piece| standing(piece) >= MIN_STANDING));
         }
     }
+    let heights: Vec<f32> = close.iter().map(|body| top_under(body)).collect();
+    apart.extend(seen_closer(grid, gaussians, close, &heights));
     apart
 }
 

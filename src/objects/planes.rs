@@ -227,18 +227,24 @@ fn classify(grid: &VoxelGrid, planes: Vec<ScenePlane>) -> Vec<ScenePlane> {
 fn walls_of_room(grid: &VoxelGrid, upright: &[ScenePlane], room: (Vec3, Vec3)) -> Vec<ScenePlane> {
     let walls = upright.iter().filter_map(|plane| as_wall(grid, plane.clone(), room, BEYOND_SIDE_FRAC));
     let walls: Vec<ScenePlane> = walls.filter(|wall| is_at_side(wall, room)).collect();
-    walls.iter().filter(|wall| walls.iter().all(|other| !hangs_before(wall, other, room))).cloned().collect()
+    walls.iter().filter(|wall| walls.iter().all(|other| !hangs_before(grid, (wall, other), room))).cloned().collect()
 }
 
 /// Largest distance of curtains from their wall, over the room's extent, and least size of the wall over theirs.
 const HANGING_FRAC: f32 = 0.1;
 const LARGER: usize = 2;
 
-/// Whether an upright plane is that of curtains or wardrobes just before a wall.
-fn hangs_before(plane: &ScenePlane, wall: &ScenePlane, (low, high): (Vec3, Vec3)) -> bool {
+/// Least height by which a wall is higher than wardrobes or shelves before it, over the room's.
+const HIGHER_FRAC: f32 = 0.1;
+
+/// Whether an upright plane is that of curtains, wardrobes or the backs of shelves just before a wall.
+fn hangs_before(grid: &VoxelGrid, (plane, wall): (&ScenePlane, &ScenePlane), (low, high): (Vec3, Vec3)) -> bool {
     let gap = plane.offset - wall.offset;
     let is_near = gap > 0.0 && gap < HANGING_FRAC * plane.normal.abs().dot(high - low);
-    is_near && plane.normal.dot(wall.normal) > 0.95 && wall.voxels.len() >= LARGER * plane.voxels.len()
+    let top = |plane: &ScenePlane| extent_along(grid, plane.voxels.iter().copied(), Vec3::Y).1;
+    let is_larger =
+        || wall.voxels.len() >= LARGER * plane.voxels.len() || top(wall) - top(plane) >= HIGHER_FRAC * (high - low).y;
+    is_near && plane.normal.dot(wall.normal) > 0.95 && is_larger()
 }
 
 /// Least number of sides with walls of a room whose ceiling was not captured.

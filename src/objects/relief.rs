@@ -28,7 +28,7 @@ pub(crate) struct Surface {
     /// Rise along x and z.
     slope: (f32, f32),
     /// Height over it from which a position stands out.
-    relief: f32,
+    pub(crate) relief: f32,
 }
 
 impl Surface {
@@ -44,12 +44,17 @@ impl Surface {
             }
         }
         let points: Vec<Vec3> = highest.into_values().collect();
-        let mut plane = Self { middle: fullest_height(&points, grid.cell), slope: (0.0, 0.0), relief: 0.0 };
+        Self::of_points(&points, grid.cell)
+    }
+
+    /// The plane of most of some points, y up.
+    pub(crate) fn of_points(points: &[Vec3], cell: f32) -> Self {
+        let mut plane = Self { middle: fullest_height(points, cell), slope: (0.0, 0.0), relief: 0.0 };
         for reach in FIT_CELLS {
-            plane.fit(points.iter().copied(), reach * grid.cell);
+            plane.fit(points.iter().copied(), reach * cell);
         }
-        let near = points.iter().map(|&p| plane.height(p).abs()).filter(|off| *off <= FIT_CELLS[0] * grid.cell);
-        plane.relief = (NUM_DEVIATIONS * median(near) / grid.cell).clamp(RELIEF_CELLS.0, RELIEF_CELLS.1) * grid.cell;
+        let near = points.iter().map(|&p| plane.height(p).abs()).filter(|off| *off <= FIT_CELLS[0] * cell);
+        plane.relief = (NUM_DEVIATIONS * median(near) / cell).clamp(RELIEF_CELLS.0, RELIEF_CELLS.1) * cell;
         plane
     }
 

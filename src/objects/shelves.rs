@@ -36,8 +36,7 @@ pub(crate) fn fill_shelves(grid: &VoxelGrid, planes: &[ScenePlane], tops: &[Top]
         let board = extent(grid, &top.voxels);
         let least_y = lowest(grid, &groups[shelf].voxels);
         for part in contacts(grid, &groups[shelf].voxels, &owner, REACH).into_keys() {
-            let is_free = groups[part].parent.is_none() && groups.iter().all(|group| group.parent != Some(part));
-            if is_free && is_over(grid, &groups[part].voxels, board, least_y) {
+            if groups[part].parent.is_none() && is_over(grid, &groups[part].voxels, board, least_y) {
                 groups[part].parent = Some(shelf);
             }
         }

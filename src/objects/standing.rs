@@ -245,12 +245,12 @@ fn join_boards(grid: &VoxelGrid, tops: &[Top], num_bodies: usize, sets: &mut Dis
 }
 
 /// Overlap of two boxes seen from above: intersection over union.
-fn footprint_overlap(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> f32 {
+pub(crate) fn footprint_overlap(a: (Vec3, Vec3), b: (Vec3, Vec3)) -> f32 {
     let shared = footprint_area((a.0.max(b.0), a.1.min(b.1)));
     shared / (footprint_area(a) + footprint_area(b) - shared).max(f32::MIN_POSITIVE)
 }
 
-fn footprint_area((low, high): (Vec3, Vec3)) -> f32 {
+pub(crate) fn footprint_area((low, high): (Vec3, Vec3)) -> f32 {
     (high.x - low.x).max(0.0) * (high.z - low.z).max(0.0)
 }
 

@@ -13,13 +13,16 @@ use super::color;
 use cinesplat_scene::Gaussians;
 
 /// Least opacity of a Gaussian that fills cells.
-const FAINT_OPACITY: f32 = 0.1;
+pub(crate) const FAINT_OPACITY: f32 = 0.1;
 
 /// Least sum of opacities in an occupied cell: one clearly visible Gaussian or a few faint ones.
 const OCCUPIED_MASS: f32 = 0.5;
 
 /// Number of standard deviations out to which a Gaussian fills cells.
-const REACH_SIGMA: f32 = 1.0;
+pub(crate) const REACH_SIGMA: f32 = 1.0;
+
+/// Samples of a Gaussian along each half axis, per cell.
+pub(crate) const STEPS_PER_CELL: f32 = 2.0;
 
 /// Limit on the samples of a Gaussian along each half axis.
 const MAX_STEPS: i32 = 4;
@@ -29,12 +32,12 @@ const MAX_STEPS: i32 = 4;
 const MAX_CELLS: f32 = 16_384.0;
 
 /// Positions of cells by key.
-type CellIndex = HashMap<[i32; 3], u32, BuildHasherDefault<CellHasher>>;
+pub(crate) type CellIndex = HashMap<[i32; 3], u32, BuildHasherDefault<CellHasher>>;
 
 /// A hash of three small integers, mixed by odd constants: much faster than the default's keyed hash. The keys come
 /// from the scene's own grid, so that protection against chosen keys is not needed.
 #[derive(Default)]
-struct CellHasher(u64);
+pub(crate) struct CellHasher(u64);
 
 impl Hasher for CellHasher {
     fn finish(&self) -> u64 {
@@ -94,12 +97,12 @@ pub(crate) struct VoxelGrid {
 
 /// Sums over the samples in a cell, weighted by opacity.
 #[derive(Clone, Copy)]
-struct Moments {
-    mass: f32,
+pub(crate) struct Moments {
+    pub(crate) mass: f32,
     /// Sum of positions relative to the middle of the cell, which keeps the precision of the squares.
-    offset: Vec3,
+    pub(crate) offset: Vec3,
     square: Mat3,
-    color_lab: Vec3,
+    pub(crate) color_lab: Vec3,
     level: f32,
     sigma: f32,
     num_centers: f32,
@@ -109,18 +112,28 @@ impl VoxelGrid {
     /// Cells with edge `cell`; the local frame has its origin at `center` and the columns of `axes` as its axes in the
     /// world.
     pub(crate) fn new(gaussians: &Gaussians, cell: f64, center: DVec3, axes: DMat3) -> Self {
-        let empty = Self {
-            cell: cell as f32,
-            voxels: Vec::new(),
-            index: CellIndex::default(),
-            center,
-            local_from_world: axes.transpose(),
-        };
-        let (mut index, mut cells) = empty.accumulated(gaussians);
-        cells.retain(|(_, moments)| moments.mass >= OCCUPIED_MASS);
+        let empty = Self::empty(cell, center, axes);
+        let cells = empty.accumulated(gaussians);
+        empty.with_cells(cells)
+    }
+
+    /// Some Gaussians in cells half as large, in the same frame.
+    pub(crate) fn halved(&self, gaussians: &Gaussians) -> Self {
+        Self::new(gaussians, f64::from(self.cell) / 2.0, self.center, self.local_from_world.transpose())
+    }
+
+    /// A grid without voxels.
+    pub(crate) fn empty(cell: f64, center: DVec3, axes: DMat3) -> Self {
+        let local_from_world = axes.transpose();
+        Self { cell: cell as f32, voxels: Vec::new(), index: CellIndex::default(), center, local_from_world }
+    }
+
+    /// The grid with the voxels of some cells.
+    pub(crate) fn with_cells(self, mut cells: Vec<([i32; 3], Moments)>) -> Self {
+        let empty = self;
+        cells.retain(is_occupied);
         cells.sort_unstable_by_key(|(key, _)| *key);
-        index.clear();
-        index.extend(cells.iter().enumerate().map(|(i, (key, _))| (*key, i as u32)));
+        let index: CellIndex = cells.iter().enumerate().map(|(i, (key, _))| (*key, i as u32)).collect();
         let voxels = cells.par_iter().map(|(key, moments)| Voxel {
             key: *key,
             position: empty.middle(*key) + moments.offset / moments.mass,
@@ -146,7 +159,7 @@ impl VoxelGrid {
         (local / self.cell).floor().max(-most).min(most).as_ivec3().to_array()
     }
 
-    fn middle(&self, key: [i32; 3]) -> Vec3 {
+    pub(crate) fn middle(&self, key: [i32; 3]) -> Vec3 {
         (IVec3::from_array(key).as_vec3() + 0.5) * self.cell
     }
 
@@ -167,30 +180,18 @@ impl VoxelGrid {
     }
 
     /// The sums of every cell. Gaussians are added in order, so that the sums do not depend on the number of threads.
-    fn accumulated(&self, gaussians: &Gaussians) -> (CellIndex, Vec<([i32; 3], Moments)>) {
-        let turn = Quat::from_mat3(&self.local_from_world.as_mat3());
+    pub(crate) fn accumulated(&self, gaussians: &Gaussians) -> Vec<([i32; 3], Moments)> {
+        let turn = self.local_rotation();
         let mut index = CellIndex::default();
         let mut cells: Vec<([i32; 3], Moments)> = Vec::new();
         let mut filled = Vec::new();
         for i in (0..gaussians.len()).filter(|&i| gaussians.opacities[i] >= FAINT_OPACITY) {
-            let mass = gaussians.opacities[i];
-            let color_lab = color::lab(gaussians.base_color(i)) * mass;
-            let level = levelness(turn * gaussians.rotations[i], gaussians.scales[i]) * mass;
-            let sigma = gaussians.scales[i].max_element() * mass;
+            let traits = Moments::of_gaussian(gaussians, i, turn);
             let center = self.key_at(self.to_local(gaussians.mean_world(i)));
-            self.fill(gaussians, i, turn, &mut filled);
+            self.fill(gaussians, i, (turn, Vec3::splat(STEPS_PER_CELL)), &mut filled);
             for &(key, position) in &filled {
-                let p = position - self.middle(key);
                 let num_centers = f32::from(u8::from(key == center));
-                let sample = Moments {
-                    mass,
-                    offset: p * mass,
-                    square: outer(p, p) * mass,
-                    color_lab,
-                    level,
-                    sigma,
-                    num_centers,
-                };
+                let sample = Moments { num_centers, ..traits.at(position - self.middle(key)) };
                 let cell = *index.entry(key).or_insert(cells.len() as u32) as usize;
                 match cells.get_mut(cell) {
                     Some((_, moments)) => moments.add(&sample),
@@ -198,18 +199,29 @@ impl VoxelGrid {
                 }
             }
         }
-        (index, cells)
+        cells
+    }
+
+    /// Local from world.
+    pub(crate) fn local_rotation(&self) -> Quat {
+        Quat::from_mat3(&self.local_from_world.as_mat3())
     }
 
     /// The cells that one Gaussian fills, each once, with a sample position in it.
-    fn fill(&self, gaussians: &Gaussians, i: usize, turn: Quat, filled: &mut Vec<([i32; 3], Vec3)>) {
+    pub(crate) fn fill(
+        &self,
+        gaussians: &Gaussians,
+        i: usize,
+        (turn, fineness): (Quat, Vec3),
+        filled: &mut Vec<([i32; 3], Vec3)>,
+    ) {
         let mean = self.to_local(gaussians.mean_world(i));
         let axes =
             Mat3::from_quat(turn * gaussians.rotations[i]) * Mat3::from_diagonal(gaussians.scales[i] * REACH_SIGMA);
         // An axis shorter than a cell is not sampled, because samples along it would make every surface two cells
         // thick.
         let reach = gaussians.scales[i] * REACH_SIGMA / self.cell;
-        let steps = (reach * 2.0).floor().min(Vec3::splat(MAX_STEPS as f32)).as_ivec3();
+        let steps = (reach * fineness).floor().min(Vec3::splat(MAX_STEPS as f32)).as_ivec3();
         filled.clear();
         for x in -steps.x..=steps.x {
             for y in -steps.y..=steps.y {
@@ -230,7 +242,7 @@ impl VoxelGrid {
 
 impl Moments {
     /// No samples. Not `Default`, because glam's default matrix is the identity.
-    const EMPTY: Self = Self {
+    pub(crate) const EMPTY: Self = Self {
         mass: 0.0,
         offset: Vec3::ZERO,
         square: Mat3::ZERO,
@@ -240,7 +252,19 @@ impl Moments {
         num_centers: 0.0,
     };
 
-    fn add(&mut self, other: &Self) {
+    /// The sums of a Gaussian's sample at the middle of a cell. `turn`: local from world.
+    pub(crate) fn of_gaussian(gaussians: &Gaussians, i: usize, turn: Quat) -> Self {
+        let mass = gaussians.opacities[i];
+        Self {
+            mass,
+            color_lab: color::lab(gaussians.base_color(i)) * mass,
+            level: levelness(turn * gaussians.rotations[i], gaussians.scales[i]) * mass,
+            sigma: gaussians.scales[i].max_element() * mass,
+            ..Self::EMPTY
+        }
+    }
+
+    pub(crate) fn add(&mut self, other: &Self) {
         self.mass += other.mass;
         self.offset += other.offset;
         self.square += other.square;
@@ -250,11 +274,21 @@ impl Moments {
         self.num_centers += other.num_centers;
     }
 
+    /// The same sums of a sample at `offset` from the middle of its cell.
+    pub(crate) fn at(&self, offset: Vec3) -> Self {
+        Self { offset: offset * self.mass, square: outer(offset, offset) * self.mass, ..*self }
+    }
+
     /// The sums relative to the middle of another cell; this cell's middle is at `step` from it.
     fn shifted(&self, step: Vec3) -> Self {
         let square = self.square + outer(self.offset, step) + outer(step, self.offset) + outer(step, step) * self.mass;
         Self { offset: self.offset + step * self.mass, square, ..*self }
     }
+}
+
+/// Whether a cell is a voxel.
+pub(crate) fn is_occupied((_, moments): &([i32; 3], Moments)) -> bool {
+    moments.mass >= OCCUPIED_MASS
 }
 
 /// `a` times the transpose of `b`.

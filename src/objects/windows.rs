@@ -21,6 +21,12 @@ const BEFORE_CELLS: (f32, f32) = (4.0, 30.0);
 /// Largest width of the bars that divide a window, cells.
 const BAR_CELLS: i32 = 3;
 
+/// Least width and height of a pane, largest distance between panes beside each other, and largest difference between where
+/// they begin and end, cells.
+const MIN_PANE: f32 = 4.0;
+const POST_CELLS: i32 = 7;
+const PANE_SHIFT: i32 = 2;
+
 /// Least width and height of a window, cells.
 const MIN_SIDE: f32 = 10.0;
 
@@ -83,8 +89,32 @@ fn on_wall(grid: &VoxelGrid, wall: &ScenePlane) -> Vec<Vec<usize>> {
     let (low, high) = rectangle(&all);
     let inside = (low[0]..=high[0]).flat_map(|x| (low[1]..=high[1]).map(move |y| [x, y]));
     let holes: BTreeSet<[i32; 2]> = inside.filter(|key| !cells.wall.contains(key)).collect();
-    let found = components_within(holes, BAR_CELLS).into_iter();
-    found.filter_map(|hole| window(grid, wall, (&cells, (low, high)), &hole)).collect()
+    let found = with_panes_joined(components_within(holes, BAR_CELLS));
+    found.into_iter().filter_map(|hole| window(grid, wall, (&cells, (low, high)), &hole)).collect()
+}
+
+/// The holes of a wall, the panes of one window as one hole: they begin and end alike, with a bar between them.
+fn with_panes_joined(mut holes: Vec<Vec<[i32; 2]>>) -> Vec<Vec<[i32; 2]>> {
+    holes.retain(|hole| sides(rectangle(hole)).into_iter().all(|side| side >= MIN_PANE));
+    let is_beside = |one: Rectangle, other: Rectangle, axis: usize| {
+        let gap = (one.0[axis] - other.1[axis]).max(other.0[axis] - one.1[axis]);
+        let across = 1 - axis;
+        let is_alike = |a: [i32; 2], b: [i32; 2]| (a[across] - b[across]).abs() <= PANE_SHIFT;
+        (1..=POST_CELLS).contains(&gap) && is_alike(one.0, other.0) && is_alike(one.1, other.1)
+    };
+    let mut at = 0;
+    while at < holes.len() {
+        let own = rectangle(&holes[at]);
+        let beside = |other: &Vec<[i32; 2]>| (0..2).any(|axis| is_beside(own, rectangle(other), axis));
+        match (at + 1..holes.len()).find(|&other| beside(&holes[other])) {
+            Some(other) => {
+                let joined = holes.swap_remove(other);
+                holes[at].extend(joined);
+            }
+            None => at += 1,
+        }
+    }
+    holes
 }
 
 /// The voxels of a window; `None` where a hole is none.

@@ -9,6 +9,7 @@ mod delaunay;
 mod editing;
 mod file;
 mod find;
+mod find_touching;
 mod lifting;
 mod naming;
 mod radius_search;
