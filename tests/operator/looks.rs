@@ -1,11 +1,12 @@
 //! What the camera looks at while it travels, what stays in view, what is never in view, and simultaneous moves.
 
-use cinesplat::operator::{Amount, Framing, Look, Step, SubjectPart};
-use cinesplat::trajectory::{CameraState, Move};
+use cinesplat::objects::{Object, ObjectSet};
+use cinesplat::operator::{Amount, Framing, Look, Step, SubjectPart, World};
+use cinesplat::trajectory::{CameraState, Move, ShotSize};
 use glam::DVec3;
 
 use super::composition::{assert_met, in_frame};
-use super::{film, solved, world};
+use super::{film, room, solved, wall, world};
 
 const FIRST: DVec3 = DVec3::new(1.2, 0.6, 0.9);
 const SECOND: DVec3 = DVec3::new(-1.2, 0.5, 0.8);
@@ -162,4 +163,22 @@ fn a_crane_from_part_to_part_keeps_its_view() {
     assert!((last.position - first.position).dot(world.frame.up) < -0.05);
     // Turned only as far as the composition at the edge of a capture asks; to aim at each part takes twice that.
     assert!(first.forward().angle_between(last.forward()).to_degrees() < 8.0);
+}
+
+#[test]
+fn a_close_up_before_a_tilt_has_behind_it_what_the_tilt_goes_to() {
+    let (mut gaussians, objects) = room();
+    // A picture high on the wall behind box 2, seen from the middle of the room.
+    let (center, half) = (DVec3::new(-2.9, 2.0, 0.8), DVec3::new(0.03, 0.25, 0.35));
+    let first = gaussians.len();
+    wall(&mut gaussians, center - half, DVec3::Y * 0.5, DVec3::Z * 0.7);
+    let picture = Object { num_gaussians: gaussians.len() - first, ..Object::from_box(3, "picture", center, half) };
+    let set = ObjectSet { objects: objects.objects.into_iter().chain([picture]).collect(), labels: Vec::new() };
+    let world = World::new(&gaussians, DVec3::Y, &set, &[2, 3]).unwrap();
+    let close = Framing { size: Some(ShotSize::CloseUp), ..about(2) };
+    let push = Step { end: close, ..Step::of(Move::PushIn) };
+    let frames = film(&solved(&world, vec![push, Step { end: about(3), ..Step::of(Move::TiltUp) }]));
+    let level = |state: &CameraState| state.pose.forward().with_y(0.0);
+    let turned = level(&frames[0]).angle_between(level(&frames[frames.len() - 1])).to_degrees();
+    assert!(turned < 15.0, "turns sideways by {turned} degrees");
 }

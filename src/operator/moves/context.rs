@@ -471,6 +471,11 @@ fn preferred_azimuths(world: &World, program: &Program, index: usize) -> Vec<f64
         if from.aim.distance(to.aim) < 1e-9 {
             continue;
         }
+        if matches!(step.movement, Move::TiltUp | Move::TiltDown) {
+            // Who tilts from a candle to a picture has the picture behind the candle.
+            out.push(world.frame.azimuth(from.aim - to.aim));
+            continue;
+        }
         let left = matches!(step.movement, Move::TruckLeft | Move::PanLeft);
         out.extend(azimuth_across(&world.frame, from.aim, to.aim, left));
         if step.either_way {
