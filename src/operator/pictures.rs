@@ -47,12 +47,13 @@ const UNDER_COST: f64 = 4.0;
 struct Picture {
     void: f64,
     blocked: f64,
+    blocked_by_others: f64,
     foreground: f64,
     shallow: f64,
 }
 
 /// Cost of the pictures of a segment's sampled states: the ends and three moments between. What the constraints are about is
-/// no foreground and blocks no lens, however near it is.
+/// no foreground, however near it is.
 pub(super) fn pictures_cost(world: &World, constraints: &[Constraint], states: &[CameraState]) -> f64 {
     let about = constraints.iter().flat_map(Constraint::about).filter_map(|id| world.subject(*id));
     let subjects: Vec<&Subject> = about.collect();
@@ -81,9 +82,9 @@ pub(super) fn pictures_cost(world: &World, constraints: &[Constraint], states: &
 }
 
 /// Share of a picture that other matter than its subjects takes close before the lens.
-pub(super) fn blocked_frac(world: &World, ids: &[u32], state: &CameraState) -> f64 {
+pub(super) fn blocked_by_others_frac(world: &World, ids: &[u32], state: &CameraState) -> f64 {
     let subjects: Vec<&Subject> = ids.iter().filter_map(|id| world.subject(*id)).collect();
-    picture(world, &subjects, state, END_RAYS).blocked
+    picture(world, &subjects, state, END_RAYS).blocked_by_others
 }
 
 /// Void of the worst picture of some cameras, as a share of it.
@@ -182,8 +183,9 @@ fn picture(world: &World, subjects: &[&Subject], state: &CameraState, (columns, 
                     let hit = state.pose.position + ray * distance;
                     if !subjects.iter().any(|subject| subject.has_in_box(hit, BOX_MARGIN)) {
                         others.push(distance);
-                        out.blocked += if distance < near { each } else { 0.0 };
+                        out.blocked_by_others += if distance < near { each } else { 0.0 };
                     }
+                    out.blocked += if distance < near { each } else { 0.0 };
                     out.shallow += if distance < shallow { each } else { 0.0 };
                 }
             }

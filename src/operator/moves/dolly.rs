@@ -7,7 +7,7 @@ use super::standing_view::stands;
 use crate::constraint::{ConstraintKind, Scope};
 use crate::framing::{Target, in_frame_frac};
 use crate::motion::MotionSegment;
-use crate::pictures::{blocked_frac, void_frac};
+use crate::pictures::{blocked_by_others_frac, void_frac};
 use crate::program::{Amount, Framing, Motion};
 use crate::view::{aimed, lerp, moved, with_fov};
 use cinesplat_trajectory::{CameraState, Move};
@@ -304,7 +304,7 @@ fn before_matter(context: &StepContext, target: &Target, first: &CameraState, la
     if is_sized || context.step.amount.is_some() || !context.world.is_indoor() || target.ids.is_empty() {
         return last;
     }
-    let is_blocked = |state: &CameraState| blocked_frac(context.world, &target.ids, state) > MOST_BLOCKED;
+    let is_blocked = |state: &CameraState| blocked_by_others_frac(context.world, &target.ids, state) > MOST_BLOCKED;
     if !is_blocked(&last) {
         return last;
     }
