@@ -1,13 +1,15 @@
 //! What the words say of the last picture of a move: `until the table is in, including the lantern`, `up high so we see the
 //! whole camp`, `then zoom out again`.
 
-use cinesplat_language::{Linked, QuantityKind};
+use cinesplat_language::{Linked, QuantityKind, add_ids};
 use cinesplat_operator::{Amount, Framing, Motion, Step};
 use cinesplat_trajectory::{Move, ShotSize};
 
 use super::bans::asks_for;
+use super::briefs::directs;
 use super::directions::is_form;
 use super::openings::{OPENS, abbreviated_size};
+use crate::direction::Direction;
 
 /// Words that add a thing to what is seen.
 const INCLUDES: [&str; 5] = ["incl", "including", "include", "includes", "plus"];
@@ -39,6 +41,38 @@ pub(crate) fn include_named(linked: &Linked, steps: &mut [Step]) {
         step.end.whole |= step.end.size.is_none() || subjects.len() > 1;
         step.end.subjects = subjects;
     }
+}
+
+/// Joins to a step that widens until things are in the picture what the words list behind them: `pull back until both lamps, the bench
+/// and the picture are in`, of which the network makes a step of its own.
+pub(crate) fn join_listed(linked: &Linked, direction: &mut Direction) {
+    let mut nth = 1;
+    while nth < direction.program.steps.len() {
+        let [first, second] = &direction.program.steps[nth - 1..=nth] else { break };
+        match listed(linked, first, second) {
+            Some(one) => direction.join_steps(nth, one),
+            None => nth += 1,
+        }
+    }
+}
+
+fn listed(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
+    let widens = matches!(first.movement, Move::PullOut | Move::ZoomOut);
+    let takes_in = widens && first.end.whole && !first.end.subjects.is_empty();
+    let is_bare = second.via.is_none()
+        && second.with.is_empty()
+        && second.start.subjects.is_empty()
+        && second.duration_secs.is_none()
+        && !second.cut
+        && !second.returns
+        && !second.end.subjects.is_empty();
+    let words = linked.texts_in(second.words?);
+    let goes_on = words.first().is_some_and(|word| matches!(*word, "," | "and"));
+    (takes_in && is_bare && goes_on && first.words != second.words && !directs(&words)).then(|| {
+        let mut end = first.end.clone();
+        add_ids(&mut end.subjects, &second.end.subjects);
+        Step { end, words: first.joint_words(second), ..first.clone() }
+    })
 }
 
 /// Ends a way to its subject on a close picture that the network begins it with, where no words open on it: `get in really

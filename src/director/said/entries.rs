@@ -40,6 +40,10 @@ pub(crate) fn come_in_at_doors(linked: &Linked, objects: &[Object], direction: &
     let mut nth = 1;
     while nth < direction.program.steps.len() {
         let [first, second] = &direction.program.steps[nth - 1..=nth] else { break };
+        if let Some(two) = entered_past(linked, objects, first, second) {
+            direction.program.steps.splice(nth - 1..=nth, two);
+        }
+        let [first, second] = &direction.program.steps[nth - 1..=nth] else { break };
         match entered(linked, objects, first, second) {
             Some(one) => direction.join_steps(nth, one),
             None => nth += 1,
@@ -195,6 +199,18 @@ fn entered(linked: &Linked, objects: &[Object], first: &Step, second: &Step) -> 
     })
 }
 
+/// As [`entered`], where the next step goes past something: `walk in from the door, carry on past the table and finish at the
+/// window` goes from the door to the table, and past it to the window.
+fn entered_past(linked: &Linked, objects: &[Object], first: &Step, second: &Step) -> Option<[Step; 2]> {
+    let passed = second.via.as_ref().filter(|via| via.how == Pass::Past && via.objects.len() == 1)?;
+    let on_way = !second.end.subjects.contains(&passed.objects[0]) && first.end.subjects.is_empty();
+    let end = Framing { subjects: passed.objects.clone(), ..Framing::default() };
+    let to_passed = Step { via: None, end, words: first.words, ..second.clone() };
+    let to_passed = entered(linked, objects, first, &to_passed).filter(|_| on_way)?;
+    let to_passed = Step { movement: first.movement, words: first.words, ..to_passed };
+    Some([to_passed, Step { start: Framing::default(), ..second.clone() }])
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::fixture::{direction, linked};
@@ -277,5 +293,22 @@ mod tests {
         assert_eq!(led("begin at the <obj-0> and walk to <obj-1>"), from);
         assert_eq!(led("begin tight on the <obj-0> , then go from it to <obj-1>"), None);
         assert_eq!(led("swing the view from <obj-0> to <obj-1>"), None);
+    }
+
+    #[test]
+    fn who_walks_in_past_something_goes_there_from_the_door() {
+        let text = "walk in from <obj-0> at eye level , carry on past <obj-1> and finish at it";
+        let object = |id, label| Object::from_box(id, label, DVec3::ZERO, DVec3::ONE);
+        let objects = [object(5, "gray door"), object(7, "dining table"), object(9, "window")];
+        let about = |id: u32| Framing { subjects: vec![id], ..Framing::default() };
+        let first = Step { start: about(5), words: Some([0, 36]), ..Step::of(Move::PushIn) };
+        let past = Some(Via { how: Pass::Past, objects: vec![7] });
+        let second = Step { end: about(9), via: past, words: Some([37, text.len()]), ..Step::of(Move::FlyThrough) };
+        let mut direction = direction(vec![first, second]);
+        come_in_at_doors(&linked(text), &objects, &mut direction);
+        let steps = &direction.program.steps;
+        let from = steps[0].via.as_ref().map(|via| (via.how, via.objects.clone()));
+        assert_eq!((from, &steps[0].end.subjects), (Some((Pass::From, vec![5])), &vec![7]));
+        assert_eq!(steps[1].end.subjects, [9]);
     }
 }

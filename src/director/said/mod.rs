@@ -329,6 +329,7 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     named_times::merge_named_speeds(linked, direction);
     fixed::lock_off(linked, &mut direction.program.steps);
     denied::drop_denied(linked, direction);
+    endings::join_listed(linked, direction);
     slides::join_slides(linked, direction);
     still_briefs::move_still_films(linked, direction);
     overheads::rise_overhead(linked, direction);

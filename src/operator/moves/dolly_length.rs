@@ -50,7 +50,7 @@ fn soft_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f6
 const FULLEST: f64 = 0.9;
 /// The same where a circle follows, which sees the subject from sides that may be broader.
 const FULLEST_CIRCLED: f64 = 0.68;
-pub(super) const LARGEST_OPEN_RATIO: f64 = 0.72;
+pub(super) const LARGEST_OPEN_RATIO: f64 = 0.66;
 /// The ratio of the distances, or of the tangents of half the fields of view, beyond which the edges of the frame would cut a
 /// subject that they need not.
 pub(super) fn least_open_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f64 {
