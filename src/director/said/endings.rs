@@ -323,4 +323,17 @@ mod tests {
         assert_eq!(noticed("then you lift your head and notice there 's a whole room around you"), out);
         assert_eq!(noticed("then look up to the whole ceiling"), (Move::TiltUp, None));
     }
+
+    #[test]
+    fn a_pull_out_takes_in_all_that_the_words_list() {
+        let text = "pull back until i see <obj-0> , <obj-1> and the bench";
+        let whole = |ids: &[u32]| Framing { subjects: ids.to_vec(), whole: true, ..Framing::default() };
+        let first = Step { end: whole(&[5]), words: Some([0, 29]), ..Step::of(Move::PullOut) };
+        let second = Step { end: whole(&[7]), words: Some([30, text.len()]), ..Step::of(Move::Follow) };
+        let one = listed(&linked(text), &first, &second).map(|step| step.end.subjects);
+        assert_eq!(one, Some(vec![5, 7]));
+        let then = "pull back until i see <obj-0> , then pan to <obj-1>";
+        let second = Step { words: Some([30, then.len()]), ..second };
+        assert_eq!(listed(&linked(then), &first, &second), None);
+    }
 }
