@@ -354,10 +354,7 @@ impl Subject {
     pub(super) fn has_in_box(&self, point: DVec3, margin: f64) -> bool {
         let offset = point - self.center;
         let spare = margin * self.radius;
-        self.half_axes.iter().all(|axis| {
-            let reach = axis.length();
-            offset.dot(axis.normalize_or_zero()).abs() <= reach + spare
-        })
+        self.half_axes.iter().all(|axis| offset.dot(axis.normalize_or_zero()).abs() <= axis.length() + spare)
     }
 
     fn of(gaussians: &Gaussians, object: &Object, labels: &[u16], grid: &Grid) -> Self {

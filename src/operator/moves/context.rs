@@ -33,7 +33,7 @@ pub(crate) struct StepContext<'a> {
     pub(super) index: usize,
     /// No step follows, or the next one begins with a cut.
     pub(super) is_last: bool,
-    /// The step that follows circles what the camera comes to with this one.
+    /// The step that follows circles what this one ends on.
     pub(super) is_circled_next: bool,
     /// The camera at the end of the step before; `None` at the start and after a cut.
     pub(super) before: Option<CameraState>,
@@ -76,7 +76,10 @@ impl<'a> StepContext<'a> {
         let azimuths_rad = preferred_azimuths(world, program, index);
         let next = program.steps.get(index + 1).filter(|next| !next.cut);
         let is_last = next.is_none();
-        let is_circled_next = next.is_some_and(|next| next.movement.is_circular());
+        let goes_on = |next: &Step| {
+            next.end.subjects.is_empty() || next.end.subjects.first() == program.steps[index].end.subjects.first()
+        };
+        let is_circled_next = next.is_some_and(|next| next.movement.is_circular() && goes_on(next));
         Self {
             world,
             step,

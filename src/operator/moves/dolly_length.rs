@@ -46,11 +46,13 @@ fn soft_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f6
 }
 
 /// Size in the picture, the larger of its shares of width and height, beyond which a way in whose end the words leave open goes
-/// no farther, and the largest ratio for which it stops.
+/// no farther.
 const FULLEST: f64 = 0.9;
 /// The same where a circle follows, which sees the subject from sides that may be broader.
 const FULLEST_CIRCLED: f64 = 0.68;
+/// Largest ratio at which a way in stops for that, or before other matter: one that a join takes part of is still a way in.
 pub(super) const LARGEST_OPEN_RATIO: f64 = 0.66;
+
 /// The ratio of the distances, or of the tangents of half the fields of view, beyond which the edges of the frame would cut a
 /// subject that they need not.
 pub(super) fn least_open_ratio(context: &StepContext, target: &Target, first: &CameraState) -> f64 {
