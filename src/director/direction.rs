@@ -51,6 +51,17 @@ impl Direction {
         self.remove_step(nth);
     }
 
+    /// Puts one step in the place of every two in a row for which `joined` makes one.
+    pub(crate) fn join_pairs(&mut self, joined: impl Fn(&Step, &Step) -> Option<Step>) {
+        let mut nth = 1;
+        while nth < self.program.steps.len() {
+            match joined(&self.program.steps[nth - 1], &self.program.steps[nth]) {
+                Some(one) => self.join_steps(nth, one),
+                None => nth += 1,
+            }
+        }
+    }
+
     /// The words of all steps, from the first to the last.
     pub(crate) fn span(&self) -> Option<[usize; 2]> {
         let words = || self.program.steps.iter().filter_map(|step| step.words);

@@ -27,6 +27,9 @@ pub(crate) fn seen_closer(
     bodies: Vec<Vec<usize>>,
     heights: &[f32],
 ) -> Vec<Vec<usize>> {
+    if bodies.is_empty() {
+        return bodies;
+    }
     let owner = owners(grid, &bodies);
     let mut members: Vec<Vec<usize>> = vec![Vec::new(); bodies.len()];
     for i in 0..gaussians.len() {

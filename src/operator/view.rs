@@ -10,7 +10,7 @@ use super::motion::StepParameters;
 use super::program::{Framing, SubjectPart};
 use super::suggestion::StepCameras;
 use super::world::World;
-use cinesplat_geometry::{LevelFrame, Pose};
+use cinesplat_geometry::{LevelFrame, Pose, rotation};
 use cinesplat_trajectory::{CameraState, ShotAngle, ShotSize};
 
 /// Share of the parameter's range that picks one of the preferred azimuths (the director's, across the line between two
@@ -366,8 +366,7 @@ pub(super) fn azimuth_across(frame: &LevelFrame, a: DVec3, b: DVec3, to_left: bo
 /// The azimuth nearest to another one that a picture from straight above needs for a level box: its long side lies across.
 fn squared(frame: &LevelFrame, corners: &[DVec3], azimuth_rad: f64) -> f64 {
     let sides = broadside_azimuths(frame, corners);
-    let apart = |side: &f64| (side - azimuth_rad + std::f64::consts::PI).rem_euclid(std::f64::consts::TAU);
-    let off = |side: &f64| (apart(side) - std::f64::consts::PI).abs();
+    let off = |side: &f64| rotation::short_turn(side - azimuth_rad).abs();
     sides.into_iter().min_by(|a, b| off(a).total_cmp(&off(b))).unwrap_or(azimuth_rad)
 }
 

@@ -36,7 +36,7 @@ pub(super) fn focus(scene: &Scene, objects: &ObjectSet, shot: &mut Shot) -> Resu
         for (idx, subject) in subjects.iter().enumerate() {
             let Some(subject) = subject else { continue };
             let view = shot_camera(shot, &shot.keyframes[idx]);
-            let distance = depth_of_center(&view, subject) - seer.nearer(&view, subject)?.unwrap_or(0.0);
+            let distance = seer.on_surface(&view, subject, depth_of_center(&view, subject))?;
             shot.keyframes[idx].focus_distance = Some(distance).filter(|distance| *distance > 0.0);
         }
         return Ok(());
@@ -90,6 +90,11 @@ impl Seer<'_> {
         Ok(median.map(|median| depth_of_center(view, object) - median))
     }
 
+    /// The depth of the visible surface of an object whose center is at a depth; that of the center where it is not seen.
+    fn on_surface(&self, view: &Camera, object: &Object, center: f64) -> Result<f64, RenderError> {
+        Ok(center - self.nearer(view, object)?.unwrap_or(0.0))
+    }
+
     /// Moves the focus distances of rack focuses from the centers of objects to their surfaces. Before the first rack
     /// focus and after each one the focus follows the subject of the key, or the last one in focus where a key has none.
     fn refine(&self, objects: &ObjectSet, shot: &mut Shot) -> Result<(), RenderError> {
@@ -109,9 +114,9 @@ impl Seer<'_> {
             };
             let Some(object) = object else { continue };
             held = Some(object);
-            let nearer = self.nearer(&view, object)?.unwrap_or(0.0);
+            let distance = self.on_surface(&view, object, center)?;
             if center > 0.0 {
-                shot.keyframes[idx].focus_distance = Some((center - nearer).max(1e-3 * center));
+                shot.keyframes[idx].focus_distance = Some(distance.max(1e-3 * center));
             }
         }
         Ok(())

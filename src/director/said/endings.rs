@@ -46,14 +46,7 @@ pub(crate) fn include_named(linked: &Linked, steps: &mut [Step]) {
 /// Joins to a step that widens until things are in the picture what the words list behind them: `pull back until both lamps, the bench
 /// and the picture are in`, of which the network makes a step of its own.
 pub(crate) fn join_listed(linked: &Linked, direction: &mut Direction) {
-    let mut nth = 1;
-    while nth < direction.program.steps.len() {
-        let [first, second] = &direction.program.steps[nth - 1..=nth] else { break };
-        match listed(linked, first, second) {
-            Some(one) => direction.join_steps(nth, one),
-            None => nth += 1,
-        }
-    }
+    direction.join_pairs(|first, second| listed(linked, first, second));
 }
 
 fn listed(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {

@@ -332,7 +332,7 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     endings::join_listed(linked, direction);
     slides::join_slides(linked, direction);
     still_briefs::move_still_films(linked, direction);
-    overheads::rise_overhead(linked, direction);
+    overheads::rise_from_above(linked, direction);
     wishes::turn_evenly(linked, &mut direction.program.steps);
     sides::see_obliquely(linked, &mut direction.program.steps);
     relative::level_lifts(&mut direction.program);

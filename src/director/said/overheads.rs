@@ -28,7 +28,7 @@ const RISES: [&str; 7] = ["rise", "raise", "climb", "lift", "ascend", "float", "
 const ENDS: &str = "end ends ending until till finish finishes finishing to into then";
 
 /// Rises straight up above what the film looks down on from its beginning.
-pub(crate) fn rise_overhead(linked: &Linked, direction: &mut Direction) {
+pub(crate) fn rise_from_above(linked: &Linked, direction: &mut Direction) {
     let steps = &direction.program.steps;
     if !says_overhead_rise(&linked.texts_in([0, usize::MAX])) || !steps.iter().all(is_look_or_rise) {
         return;

@@ -25,14 +25,8 @@ pub(crate) fn merge_repeated(
     direction: &mut Direction,
 ) -> Result<(), LanguageError> {
     let repeats = Senses::named(&REPEATS)?;
-    let mut nth = 1;
-    while nth < direction.program.steps.len() {
-        let (first, second) = (&direction.program.steps[nth - 1], &direction.program.steps[nth]);
-        match merged(linked, first, second).filter(|_| !says(linked, senses, second, repeats)) {
-            Some(one) => direction.join_steps(nth, one),
-            None => nth += 1,
-        }
-    }
+    direction
+        .join_pairs(|first, second| merged(linked, first, second).filter(|_| !says(linked, senses, second, repeats)));
     Ok(())
 }
 

@@ -4,7 +4,7 @@
 //! Nobody who asks for a film wants a photo. It goes in on what the picture shows, from what else is named, or around all of it.
 
 use cinesplat_language::{Linked, is_listed};
-use cinesplat_operator::{Amount, Framing, Step};
+use cinesplat_operator::{Amount, Framing};
 use cinesplat_trajectory::Move;
 
 use super::briefs::{denied, pace};
@@ -39,16 +39,21 @@ pub(crate) fn move_still_films(linked: &Linked, direction: &mut Direction) {
     let mut others = linked.named_by(&words);
     others.retain(|id| !step.end.subjects.contains(id) && !denied.contains(id) && linked.missing(*id).is_none());
     step.speed = pace(&words);
-    if step.end.whole || others.is_empty() || others.len() > MOST_TOGETHER {
-        let all: Vec<u32> = if step.end.whole && others.len() <= MOST_TOGETHER { others } else { Vec::new() };
-        step.end.subjects.extend(all);
-        step.start = Framing::default();
-        (step.movement, step.either_way, step.amount) =
-            if step.end.whole { (Move::ArcRight, true, Some(Amount::Slight)) } else { (Move::PushIn, false, None) };
+    if others.len() > MOST_TOGETHER {
+        others.clear();
+    }
+    step.start = Framing::default();
+    if step.end.whole {
+        step.end.subjects.extend(others);
+        (step.movement, step.either_way, step.amount) = (Move::ArcRight, true, Some(Amount::Slight));
         return;
     }
-    let start = Framing { subjects: others, whole: true, ..Framing::default() };
-    *step = Step { start, movement: Move::PushIn, ..step.clone() };
+    step.movement = Move::PushIn;
+    if others.is_empty() {
+        (step.either_way, step.amount) = (false, None);
+    } else {
+        step.start = Framing { subjects: others, whole: true, ..Framing::default() };
+    }
 }
 
 /// Whether words ask for a film, and not for a picture at rest.

@@ -35,14 +35,7 @@ struct Way {
 
 /// Makes one step of a way whose parts were read as steps, and passes on a way what its words say.
 pub(crate) fn join_sweeps(linked: &Linked, direction: &mut Direction) {
-    let mut nth = 1;
-    while nth < direction.program.steps.len() {
-        let steps = &direction.program.steps;
-        match swept(linked, &steps[nth - 1], &steps[nth]) {
-            Some(one) => direction.join_steps(nth, one),
-            None => nth += 1,
-        }
-    }
+    direction.join_pairs(|before, after| swept(linked, before, after));
     for step in &mut direction.program.steps {
         pass_as_said(linked, step);
     }

@@ -16,14 +16,7 @@ const SEEN: [&str; 8] = ["visible", "in", "seen", "frame", "view", "sight", "rev
 
 /// Makes one step of a move and of what it goes on to show, which the network sometimes reads as a second step.
 pub(crate) fn join_until(linked: &Linked, direction: &mut Direction) {
-    let mut nth = 1;
-    while nth < direction.program.steps.len() {
-        let (before, after) = (&direction.program.steps[nth - 1], &direction.program.steps[nth]);
-        match follows_until(linked, before, after).then(|| joined(before, after)) {
-            Some(one) => direction.join_steps(nth, one),
-            None => nth += 1,
-        }
-    }
+    direction.join_pairs(|before, after| follows_until(linked, before, after).then(|| joined(before, after)));
 }
 
 /// Whether the second step is only what the first one leads to.
