@@ -12,6 +12,8 @@ use cinesplat::reader::Reader;
 #[derive(Debug, Clone, Args)]
 pub(super) struct ModelArgs {
     /// Folder with the director's weights [default: the built-in weights]
+    ///
+    /// Folders of models in it are further networks: all read a prompt, and the reading that agrees best with all counts.
     #[arg(long, value_name = "DIR", help_heading = heading::SHOT, hide_short_help = true)]
     model: Option<PathBuf>,
     /// Language model that reads the words in the director's place [default: none]

@@ -10,17 +10,22 @@ use crate::placed::Places;
 /// several.
 pub(crate) fn point_by_heads(prompt: &str, objects: &[NamedObject], places: Places<'_>, found: &mut [FoundMention]) {
     for found in found {
-        let words = before_place(said(prompt, &found.mention));
+        let all = said(prompt, &found.mention);
+        let words = before_place(all);
         let [id] = found.mention.ids[..] else { continue };
         let (Some(noun), Some(taken)) = (head(words), label(objects, id)) else { continue };
-        if is_number(words) || content(words).len() < 2 {
+        let is_short = content(words).len() < 2;
+        if is_number(words) || is_short && words.len() == all.len() {
             continue;
         }
         if let Some(id) = called_by_two(words, taken, objects) {
             found.mention.ids = vec![id];
             continue;
         }
-        if may_mean(&noun, taken) {
+        // `The bookshelf on the wall` is no wall shelf, where there is a bookshelf.
+        let is_own = |label: &str| head(label).as_deref() == Some(&noun);
+        let is_other = is_short && !is_own(taken) && objects.iter().any(|object| is_own(&object.label));
+        if may_mean(&noun, taken) && !is_other {
             continue;
         }
         let center = |id: u32| places.objects.iter().find(|object| object.id == id).map(|object| object.center);
@@ -28,8 +33,8 @@ pub(crate) fn point_by_heads(prompt: &str, objects: &[NamedObject], places: Plac
         // `The pink drawer unit` are the drawers, where another thing is called a unit as well.
         let names_taken = head(taken).is_some_and(|taken| content(words).contains(&taken));
         let is_called = |object: &&NamedObject| {
-            head(&object.label).as_deref() == Some(&noun)
-                || !names_taken && Things::embedded().is_related(&object.label, &noun, &[Relation::Same])
+            is_own(&object.label)
+                || !is_other && !names_taken && Things::embedded().is_related(&object.label, &noun, &[Relation::Same])
         };
         let of_kind = objects.iter().filter(is_called);
         if let Some(object) = of_kind.min_by(|a, b| apart(a.id).total_cmp(&apart(b.id))) {
@@ -79,7 +84,15 @@ mod tests {
 
     #[test]
     fn the_last_word_of_a_name_says_what_the_thing_is() {
-        let objects = labelled(&["dining table", "yellow pendant lamp", "white door", "pink drawers", "teal cabinet"]);
+        let objects = labelled(&[
+            "dining table",
+            "yellow pendant lamp",
+            "white door",
+            "pink drawers",
+            "teal cabinet",
+            "wall shelf",
+            "bookshelf",
+        ]);
         let pointed = |words: &str, id: u32| {
             let mention = Mention { bytes: [0, words.len()], ids: vec![id] };
             let mut found = [FoundMention { mention, probability: 1.0, nearest: Vec::new() }];
@@ -92,5 +105,8 @@ mod tests {
         assert_eq!(pointed("the door frame", 3), 3);
         assert_eq!(pointed("the drawer unit", 4), 4);
         assert_eq!(pointed("the yellow lamp by the white door", 3), 2);
+        assert_eq!(pointed("the bookshelf on the brick wall", 6), 7);
+        assert_eq!(pointed("the shelf on the brick wall", 6), 6);
+        assert_eq!(pointed("the bookshelf", 6), 6);
     }
 }

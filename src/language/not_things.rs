@@ -215,11 +215,13 @@ fn is_sky(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> 
     words[first..end].last().is_some_and(|last| is_listed(SKIES, &last.text) && !is_label(last))
 }
 
-/// `A wide of the lounge`: the room, where no thing of the scene is called so.
+/// `A wide of the lounge`, `let the whole set come together`: the room, where no thing of the scene is called so.
 fn is_lounge(words: &[Word], [first, end]: [usize; 2], objects: &[NamedObject]) -> bool {
-    let is_label = |object: &NamedObject| tokenize(&object.label).iter().any(|word| word.text == "lounge");
+    let is_label =
+        |name: &str| objects.iter().any(|object| tokenize(&object.label).iter().any(|word| word.text == name));
     let mut names = words[first..end].iter().filter(|word| !is_listed("the our my this whole entire a", &word.text));
-    names.next().is_some_and(|word| word.text == "lounge") && names.next().is_none() && !objects.iter().any(is_label)
+    let name = names.next().map_or("", |word| &word.text);
+    is_listed("lounge set", name) && names.next().is_none() && !is_label(name)
 }
 
 /// `Three` of `the three cookies`: how many things there are of which the scene has none.
@@ -360,6 +362,12 @@ mod tests {
         assert!(is_none("silky smooth orbit", "silky"));
         assert!(is_none("push in, smooth as silk", "silk"));
         assert!(!is_none("push in on the silk", "silk"));
+    }
+
+    #[test]
+    fn a_place_by_another_name_is_no_thing() {
+        assert!(is_none("begin near, then let the whole set come together", "the whole set"));
+        assert!(!is_none("push in on the tv set", "the tv set"));
     }
 
     #[test]

@@ -194,19 +194,26 @@ fn worst_of(measurements: impl Iterator<Item = Measurement>, scope: Scope) -> Me
     picked.unwrap_or(Measurement { value: f64::NAN, violation: 1.0 })
 }
 
+/// Share of what must be visible that the first and the last frame show.
+const ENDS_OF_LEAST: f64 = 0.75;
+
 /// The largest share of a subject's points that is visible on at least [`VISIBLE_FRAMES_FRAC`] of the frames.
 fn visible_share(world: &World, id: u32, least: f64, states: &[CameraState], num_points: usize) -> Measurement {
     let Some(subject) = world.subject(id) else { return Measurement { value: 0.0, violation: 1.0 } };
     let mut shares: Vec<f64> = states.iter().map(|s| unoccluded_frac(world, s, subject, num_points)).collect();
-    shares.sort_by(f64::total_cmp);
     let least = if num_points <= SEARCH_POINTS { least + SEARCH_MARGIN } else { least };
     let least = least_visible(world, subject, least);
+    // The first and the last picture stay for longer than those between.
+    let at_ends = shares[0].min(shares[shares.len() - 1]);
+    let at_ends_off = if at_ends < ENDS_OF_LEAST * least { (least - at_ends).max(0.02) } else { 0.0 };
+    shares.sort_by(f64::total_cmp);
     let enough = shares.iter().filter(|&&share| share >= least).count() as f64 / shares.len() as f64;
     let hidden = ((1.0 - VISIBLE_FRAMES_FRAC) * shares.len() as f64 + 1e-9) as usize;
     let value = shares[hidden.min(shares.len() - 1)];
     let mean = shares.iter().sum::<f64>() / shares.len() as f64;
     let off = ((VISIBLE_FRAMES_FRAC - enough) / VISIBLE_FRAMES_FRAC).max((least - mean) / 0.5).max(0.0);
-    Measurement { value, violation: if enough >= VISIBLE_FRAMES_FRAC { 0.0 } else { off.max(0.02) } }
+    let off = if enough >= VISIBLE_FRAMES_FRAC { 0.0 } else { off.max(0.02) };
+    Measurement { value: if at_ends_off > 0.0 { value.min(at_ends) } else { value }, violation: off.max(at_ends_off) }
 }
 
 fn height(world: &World, state: &CameraState, target: &Target) -> f64 {

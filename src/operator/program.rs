@@ -159,15 +159,7 @@ impl Program {
 
     /// Ids of all objects that the steps frame or pass, or that a limit names, each once, ascending.
     pub fn object_ids(&self) -> Vec<u32> {
-        let passed = |step: &Step| step.via.iter().flat_map(|via| via.objects.clone()).collect::<Vec<u32>>();
-        let looked_at = |step: &Step| match &step.look {
-            Some(Look::At(ids)) => ids.clone(),
-            _ => Vec::new(),
-        };
-        let named = |step: &Step| {
-            let ends = [&step.start, &step.end].map(|end| [&end.subjects[..], &end.backdrop[..]].concat()).concat();
-            [&ends[..], &passed(step), &looked_at(step), &step.keep, &step.avoid].concat()
-        };
+        let named = |step: &Step| [step.about(), step.avoid.clone()].concat();
         let limited = self.limits.iter().filter_map(Limit::object);
         let mut ids: Vec<u32> = self.steps.iter().flat_map(named).chain(limited).collect();
         ids.sort_unstable();
@@ -222,6 +214,20 @@ pub struct Step {
 }
 
 impl Step {
+    /// Ids of all things that the step ends on, starts from, passes, looks at or keeps in view, ascending.
+    pub fn about(&self) -> Vec<u32> {
+        let looked = match &self.look {
+            Some(Look::At(ids)) => &ids[..],
+            _ => &[],
+        };
+        let passed = self.via.as_ref().map_or(&[][..], |via| &via.objects);
+        let ends = [&self.start, &self.end].map(|end| [&end.subjects[..], &end.backdrop[..]].concat()).concat();
+        let mut ids = [&ends[..], passed, looked, &self.keep].concat();
+        ids.sort_unstable();
+        ids.dedup();
+        ids
+    }
+
     /// The words of this step and of another one, from the first to the last.
     pub fn joint_words(&self, other: &Self) -> Option<[usize; 2]> {
         match (self.words, other.words) {

@@ -213,6 +213,50 @@ fn matrices_of_bert_are_kept_in_blocks_and_all_others_in_halves() {
 }
 
 #[test]
+fn a_compact_model_keeps_its_values_in_about_half_the_bytes() {
+    let (config, vocabulary, tensors) = with_bert();
+    let files = ModelFiles::pack("small", &config, &vocabulary, &tensors).unwrap();
+    let compact = files.clone().compact().unwrap();
+    assert_eq!(compact.weights_sha256(), files.clone().compact().unwrap().weights_sha256());
+    let bytes = |files: &ModelFiles| files.named()[0].1.len();
+    assert!(bytes(&compact) * 10 < bytes(&files) * 7, "{} of {}", bytes(&compact), bytes(&files));
+    assert_eq!(compact.config().unwrap(), config);
+    let read = compact.tensors().unwrap();
+    for (name, (shape, values)) in &tensors {
+        assert_eq!(read[name].dims(), shape, "{name}");
+        let found = read[name].flatten_all().unwrap().to_vec1::<f32>().unwrap();
+        let largest = values.iter().fold(0.0_f32, |largest, value| largest.max(value.abs()));
+        let off = values.iter().zip(&found).fold(0.0_f32, |off, (value, found)| off.max((value - found).abs()));
+        // 16 steps from end to end in BERT, 64 above it.
+        let bound = match shape.len() {
+            2 if name.starts_with("bert.") => 1.0 / 7.0,
+            2 => 1.0 / 30.0,
+            _ => 1.0 / 2000.0,
+        };
+        assert!(off <= largest * bound, "{name}: {off} of {largest}");
+    }
+}
+
+#[test]
+fn folders_of_models_in_a_folder_are_further_networks() {
+    let [first, second, ..] = ModelFiles::embedded_all();
+    let folder = tempfile::tempdir().unwrap();
+    let write = |folder: &Path, files: &ModelFiles| {
+        std::fs::create_dir_all(folder).unwrap();
+        files.named().iter().for_each(|(name, bytes)| std::fs::write(folder.join(name), bytes).unwrap());
+    };
+    write(folder.path(), &first);
+    let alone = Director::load(folder.path()).unwrap();
+    write(&folder.path().join("another"), &second);
+    let both = Director::load(folder.path()).unwrap();
+    let [alone_ref, both_ref] = [alone.model_ref(), both.model_ref()];
+    assert_eq!(both_ref.name, format!("{}+director-6", alone_ref.name));
+    assert_ne!(both_ref.sha256, alone_ref.sha256);
+    std::fs::write(folder.path().join("another/director.safetensors"), b"damaged").unwrap();
+    assert_eq!(Director::load(folder.path()).unwrap_err().code(), "MODEL-BAD");
+}
+
+#[test]
 fn blocks_of_another_size_are_refused() {
     let (config, vocabulary, tensors) = with_bert();
     let files = ModelFiles::pack("small", &config, &vocabulary, &tensors).unwrap();
@@ -221,9 +265,12 @@ fn blocks_of_another_size_are_refused() {
         std::fs::write(folder.path().join(name), bytes).unwrap();
     }
     let weights = folder.path().join("director.safetensors");
-    for (from, to) in
-        [("[32,64]", "[32,99]"), ("[32,64]", "[32,32]"), ("\\\"bert.0.up.weight\\\"", "\\\"bert.0.un.weight\\\"")]
-    {
+    for (from, to) in [
+        ("[32,64]", "[32,99]"),
+        ("[32,64]", "[32,32]"),
+        ("\\\"bert.0.up.weight\\\"", "\\\"bert.0.un.weight\\\""),
+        ("q6_k", "q9_k"),
+    ] {
         let bytes = std::fs::read(&weights).unwrap();
         let changed = replaced(&bytes, from.as_bytes(), to.as_bytes());
         assert_ne!(bytes, changed, "{from}");

@@ -12,7 +12,7 @@ use crate::cli::model_args::ModelArgs;
 use crate::cli::outputs;
 use crate::cli::read::read_linked;
 use cinesplat::language::{NamedObject, program_to_notation};
-use cinesplat::operator::{Look, Program, Step};
+use cinesplat::operator::{Program, Step};
 use cinesplat::pipeline::Interpreter;
 use cinesplat::trajectory::Move;
 
@@ -142,16 +142,6 @@ fn is_wanted(wanted: &WantedStep, step: &Step) -> bool {
         wanted.moves.contains(movement)
             || step.either_way && movement.opposite().is_some_and(|other| wanted.moves.contains(&other))
     };
-    let about = about(step);
+    let about = step.about();
     std::iter::once(&step.movement).chain(&step.with).any(is_one) && wanted.objs.iter().all(|id| about.contains(id))
-}
-
-/// All things that a step is about.
-fn about(step: &Step) -> Vec<u32> {
-    let looked = match &step.look {
-        Some(Look::At(ids)) => ids.as_slice(),
-        _ => &[],
-    };
-    let passed = step.via.as_ref().map_or(&[][..], |via| &via.objects);
-    [&step.start.subjects, &step.end.subjects, passed, looked, &step.keep, &step.end.backdrop].concat()
 }

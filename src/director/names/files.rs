@@ -12,7 +12,7 @@ use super::network::{NamesConfig, NamesNetwork};
 use crate::error::DirectorError;
 use crate::model_files::{check_hash, read_capped};
 use crate::network::Parameters;
-use crate::tensor_file::{bad, pack_tensors, read_tensors, reason};
+use crate::tensor_file::{Packing, bad, pack_tensors, read_tensors, reason};
 
 /// Name of the file with the weights.
 pub(super) const WEIGHTS_FILE: &str = "names.safetensors";
@@ -70,7 +70,7 @@ impl NamesFiles {
         config: &NamesConfig,
         tensors: &BTreeMap<String, (Vec<usize>, Vec<f32>)>,
     ) -> Result<Self, DirectorError> {
-        let weights = pack_tensors(tensors)?;
+        let weights = pack_tensors(tensors, Packing::Training)?;
         let manifest = NamesManifest {
             format: FORMAT.into(),
             version: VERSION,

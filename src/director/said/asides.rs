@@ -24,7 +24,15 @@ pub(crate) fn drop_camera_heights(linked: &Linked, direction: &mut Direction) {
         let first = words.iter().position(|word| !matches!(*word, "," | "and" | "." | "the" | "with"));
         let is_bare = step.duration_secs.is_none() && step.amount.is_none() && !step.cut;
         if first == Some(at) && num_steps > 1 && is_bare {
-            direction.remove_step(nth);
+            // `Around the table, camera a bit above the plates` goes round at that height.
+            match nth.checked_sub(1).map(|before| &direction.program.steps[before]) {
+                Some(before) => {
+                    let end = Framing { angle: before.end.angle.or(step.end.angle), ..before.end.clone() };
+                    let one = Step { end, words: before.joint_words(step), ..before.clone() };
+                    direction.join_steps(nth, one);
+                }
+                None => direction.remove_step(nth),
+            }
             continue;
         }
         let step = &mut direction.program.steps[nth];
@@ -77,13 +85,32 @@ pub(crate) fn drop_height_subjects(linked: &Linked, direction: &mut Direction) {
     }
 }
 
+/// Takes a clause about the lens for no picture of its own: `.. then pan right to the shelves. Wide lens so the room looks its best`.
+pub(crate) fn drop_lenses(linked: &Linked, direction: &mut Direction) {
+    for nth in (1..direction.program.steps.len()).rev() {
+        let step = &direction.program.steps[nth];
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let of_lens = words.iter().any(|word| matches!(*word, "lens" | "lenses"));
+        let is_bare = step.movement == Move::Static
+            && step.end.subjects.is_empty()
+            && step.duration_secs.is_none()
+            && !step.cut
+            && step.with.is_empty();
+        if of_lens && is_bare && !(0..words.len()).any(|at| is_camera_verb(&words, at)) {
+            let before = &direction.program.steps[nth - 1];
+            let one = Step { words: before.joint_words(step), ..before.clone() };
+            direction.join_steps(nth, one);
+        }
+    }
+}
+
 /// A clause about the camera's height at its end, without a verb of a move: its first word, and the things that it names.
 fn height_clause(linked: &Linked, words: &[&str]) -> Option<(usize, Vec<u32>)> {
     let clause = |at: usize| {
         let begins = at == 0 || matches!(words[at - 1], "," | "and" | "." | "the" | "with");
         let thing = (at + 1..words.len()).find(|at| !is_listed(LEVELS, words[*at]))?;
         let id = linked.slot_at(words[thing])?;
-        let is_end = words.get(thing + 1).is_none_or(|word| matches!(*word, "." | "," | ";" | "!"));
+        let is_end = words.get(thing + 1).is_none_or(|word| matches!(*word, "." | "," | ";" | "!" | "so"));
         (begins && is_listed(CAMERAS, words[at]) && thing > at + 1 && is_end).then(|| (at, linked.expanded(&[id])))
     };
     let at = (0..words.len()).find_map(clause)?;

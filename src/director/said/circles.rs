@@ -1,7 +1,7 @@
 //! Turns all the way round: `spin all the way around on the spot`, `look right round the whole room`, `one complete turn
 //! around the anvil`.
 
-use cinesplat_language::{Linked, MAX_STEPS};
+use cinesplat_language::{Linked, MAX_STEPS, is_listed};
 use cinesplat_operator::{Amount, Framing, Step, SubjectSide};
 use cinesplat_trajectory::Move;
 
@@ -207,6 +207,35 @@ pub(crate) fn close_circles(linked: &Linked, direction: &mut Direction) {
             direction.join_steps(nth, one);
         }
     }
+}
+
+/// Words of one movement.
+const ONE: &str = "one single continuous";
+
+/// Goes round in one way where the words want one movement and only sides of a thing were read: `profile from left, then front, then
+/// profile from right, in one movement only`.
+pub(crate) fn go_round_in_one(linked: &Linked, direction: &mut Direction) {
+    let words = linked.texts_in([0, usize::MAX]);
+    let is_one = words.windows(2).any(|two| is_listed(ONE, two[0]) && matches!(two[1], "movement" | "move" | "go"));
+    let [first, .., last] = &direction.program.steps[..] else { return };
+    let sees_side = |step: &Step| {
+        let turns = step.movement == Move::Static || step.movement.is_circular();
+        turns && step.end.side.is_some() && step.end.subjects == last.end.subjects && step.duration_secs.is_none()
+    };
+    if !is_one || !direction.program.steps.iter().all(sees_side) || first.end.side == last.end.side {
+        return;
+    }
+    let movement = if last.movement.is_circular() { as_orbit(last.movement) } else { Move::OrbitRight };
+    let start = Framing { subjects: first.end.subjects.clone(), side: first.end.side, ..Framing::default() };
+    let one = Step {
+        start,
+        end: last.end.clone(),
+        either_way: true,
+        speed: last.speed,
+        words: direction.span(),
+        ..Step::of(movement)
+    };
+    direction.replace_steps(vec![one]);
 }
 
 #[cfg(test)]

@@ -43,6 +43,21 @@ pub(crate) fn include_named(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Shows what a step that widens leaves together with what is seen then, too: `back away from the armchair until I can see also the
+/// curtain and the sideboard`.
+pub(crate) fn show_also(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| widens(step) && step.end.whole) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let Some(at) = words.iter().position(|word| *word == "also") else { continue };
+        let named = |words: &[&str]| linked.named_by(words);
+        let (before, after) = (named(&words[..at]), named(&words[at..]));
+        if !before.is_empty() && step.end.subjects.iter().all(|id| after.contains(id)) {
+            step.end.subjects = before;
+            add_ids(&mut step.end.subjects, &after);
+        }
+    }
+}
+
 /// Joins to a step that widens until things are in the picture what the words list behind them: `pull back until both lamps, the bench
 /// and the picture are in`, of which the network makes a step of its own.
 pub(crate) fn join_listed(linked: &Linked, direction: &mut Direction) {
@@ -59,9 +74,12 @@ fn listed(linked: &Linked, first: &Step, second: &Step) -> Option<Step> {
         && !second.cut
         && !second.returns
         && !second.end.subjects.is_empty();
-    let words = linked.texts_in(second.words?);
-    let goes_on = words.first().is_some_and(|word| matches!(*word, "," | "and"));
-    (takes_in && is_bare && goes_on && first.words != second.words && !directs(&words)).then(|| {
+    // The second step may begin with the last word of the first one's list, or behind its comma.
+    let ([from, to], [_, end]) = (first.words?, second.words?);
+    let words = linked.texts_in([to, end]);
+    let is_joint = |word: Option<&&str>| word.is_some_and(|word| matches!(*word, "," | "and"));
+    let goes_on = is_joint(words.first()) || !words.is_empty() && is_joint(linked.texts_in([from, to]).last());
+    (takes_in && is_bare && goes_on && !directs(&words)).then(|| {
         let mut end = first.end.clone();
         add_ids(&mut end.subjects, &second.end.subjects);
         Step { end, words: first.joint_words(second), ..first.clone() }

@@ -102,6 +102,18 @@ pub(crate) fn rest_where_nothing_leads(steps: &mut [Step]) {
     }
 }
 
+/// Goes nearer or back where a picture at rest has two sizes of its subject: `t0: 25 % of frame height; t_end: 60 %`.
+pub(crate) fn lead_between_sizes(steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement == Move::Static && step.with.is_empty()) {
+        let (Some(from), Some(to)) = (step.start.height_frac, step.end.height_frac) else { continue };
+        let is_one = step.start.subjects.is_empty() || step.start.subjects == step.end.subjects;
+        if is_one && !step.end.subjects.is_empty() && (from - to).abs() > 1e-6 {
+            step.start.subjects.clone_from(&step.end.subjects);
+            step.movement = if to > from { Move::PushIn } else { Move::PullOut };
+        }
+    }
+}
+
 /// Looks down at last where a rise ends on what is seen from above: `then lift so both are seen together from above`.
 pub(crate) fn look_down_from_above(linked: &Linked, steps: &mut [Step]) {
     for step in steps.iter_mut().filter(|step| matches!(step.movement, Move::PedestalUp | Move::CraneUp)) {

@@ -23,11 +23,13 @@ mod first_pictures;
 mod fixed;
 #[cfg(test)]
 pub(crate) mod fixture;
+mod foot_ends;
 mod frame_sides;
 mod goes_on;
 mod headlines;
 mod heights;
 mod joined_moves;
+mod kept_back;
 mod lengths;
 mod levels;
 mod looks;
@@ -152,6 +154,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     let steps = &mut direction.program.steps;
     places::rise_by_lengths(linked, steps);
     asides::drop_camera_heights(linked, direction);
+    asides::drop_lenses(linked, direction);
     asides::drop_height_subjects(linked, direction);
     asides::drop_light(linked, direction);
     fills::rise_by_own_height(linked, &mut direction.program.steps);
@@ -199,6 +202,7 @@ fn take_said_of_pictures(linked: &Linked, steps: &mut [Step]) {
     looks::roll_as_said(linked, steps);
     looks::reveal_by_leaving(linked, steps);
     looks::rest_where_nothing_leads(steps);
+    looks::lead_between_sizes(steps);
     looks::look_down_from_above(linked, steps);
     looks::show_bearer(linked, steps);
     open::return_to_first(linked, steps);
@@ -315,9 +319,11 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     headlines::cut_as_headlined(linked, &mut direction.program);
     headlines::cut_shots(linked, &mut direction.program);
     carriers::flow_without_cuts(&mut direction.program);
+    circles::go_round_in_one(linked, direction);
     carriers::show_all_sides(linked, direction);
     let steps = &mut direction.program.steps;
     endings::include_named(linked, steps);
+    endings::show_also(linked, steps);
     whole_film::keep_uncut(linked, steps);
     whole_film::keep_or_avoid(linked, steps);
     whole_film::take_pace(linked, steps);
@@ -332,6 +338,8 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     endings::join_listed(linked, direction);
     slides::join_slides(linked, direction);
     still_briefs::move_still_films(linked, direction);
+    kept_back::keep_for_end(linked, direction);
+    foot_ends::see_from_foot(linked, objects, &mut direction.program.steps);
     overheads::rise_from_above(linked, direction);
     wishes::turn_evenly(linked, &mut direction.program.steps);
     sides::see_obliquely(linked, &mut direction.program.steps);

@@ -127,7 +127,11 @@ pub(crate) fn join_opening(linked: &Linked, direction: &mut Direction) {
         && first.end.subjects == second.end.subjects;
     let goes_on =
         !second.cut && second.start == Framing::default() && first.amount.is_none() && first.duration_secs.is_none();
-    if opens && !moves && is_picture && same && goes_on && first.start != Framing::default() {
+    // `Keyframe 1: wide on the vase. Keyframe 2: close on the vase`.
+    let later = linked.texts_in(second.words.unwrap_or_default());
+    let sizes = first.start.size.zip(second.end.size).is_some_and(|(from, to)| from != to);
+    let is_list = sizes && !(0..later.len()).any(|at| later[at] != "frame" && is_camera_verb(&later, at));
+    if (opens && !moves || is_list) && is_picture && same && goes_on && first.start != Framing::default() {
         let lens = second.end.lens.or(first.end.lens);
         let one = Step {
             start: first.start.clone(),
@@ -163,7 +167,8 @@ pub(crate) fn drop_restated(direction: &mut Direction) {
             && first.duration_secs == second.duration_secs
             && first.with == second.with;
         // What the picture of a dolly zoom looks like is said of the same one.
-        let is_told_again = vertigo && first.either_way && first.end.subjects == second.end.subjects;
+        let is_told_again =
+            vertigo && (first.either_way || second.either_way) && first.end.subjects == second.end.subjects;
         // `.. from the skull to the lamp; rotate to the right` only says which way.
         let is_family = same || first.movement.opposite() == Some(second.movement);
         let is_turn = matches!(
@@ -181,7 +186,8 @@ pub(crate) fn drop_restated(direction: &mut Direction) {
             };
             direction.join_steps(nth, one);
         } else if is_family && is_told_again && !second.cut && !second.returns {
-            let (movement, either_way) = (second.movement, second.either_way);
+            let stated = if first.either_way { second } else { first };
+            let (movement, either_way) = (stated.movement, stated.either_way);
             let one = Step { movement, either_way, words: first.joint_words(second), ..first.clone() };
             direction.join_steps(nth, one);
         } else if same && holds {

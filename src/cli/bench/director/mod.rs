@@ -63,7 +63,7 @@ impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         if let Some(path) = &self.captions {
             for model in &self.models {
-                console::data(&captions::table(&Director::from_files(&files_of(model)?)?, path)?)?;
+                console::data(&captions::table(&Director::from_all(&files_of(model)?)?, path)?)?;
             }
             return Ok(());
         }
@@ -78,8 +78,8 @@ impl Args {
         let mut rows = Vec::new();
         for model in &self.models {
             let files = files_of(model)?;
-            let director = Director::from_files(&files)?;
-            let num_bytes = files.named().iter().map(|(_, bytes)| bytes.len()).sum();
+            let director = Director::from_all(&files)?;
+            let num_bytes = files.iter().flat_map(ModelFiles::named).map(|(_, bytes)| bytes.len()).sum();
             for split in &self.split {
                 let writers: Vec<&Writer> = writers.iter().filter(|writer| writer.split == *split).collect();
                 rows.extend(rows_of(model, num_bytes, &director, *split, &writers)?);
@@ -93,8 +93,9 @@ impl Args {
     }
 }
 
-fn files_of(model: &Path) -> Result<ModelFiles, Failure> {
-    Ok(if model.as_os_str() == "built-in" { ModelFiles::embedded() } else { ModelFiles::read(model)? })
+fn files_of(model: &Path) -> Result<Vec<ModelFiles>, Failure> {
+    let is_built_in = model.as_os_str() == "built-in";
+    Ok(if is_built_in { ModelFiles::embedded_all().to_vec() } else { ModelFiles::read_all(model)? })
 }
 
 const HEADER: &str = "model,bytes,split,kind,mentions,sentences,programs_percent,low_percent,high_percent,steps_percent,\
