@@ -2,10 +2,11 @@
 //! telescope`.
 
 use cinesplat_language::Linked;
-use cinesplat_operator::{Pass, Step, Via};
-use cinesplat_trajectory::Move;
+use cinesplat_operator::{Framing, Pass, Step, Via};
+use cinesplat_trajectory::{Move, ShotAngle};
 
 use super::directions::is_form;
+use crate::direction::Direction;
 
 /// Verbs of a camera that comes to a stop.
 const STOPS: [&str; 10] = ["stop", "halt", "hover", "brake", "park", "land", "finish", "settle", "arrive", "pull"];
@@ -54,6 +55,28 @@ pub(crate) fn end_at_stops(linked: &Linked, steps: &mut [Step]) {
             stop.movement = Move::Static;
         }
     }
+}
+
+/// Goes toward a thing over which the network flies before it shows it: `drift in low across the table top, and close on the teapot`. Above
+/// it a camera would look straight down.
+pub(crate) fn arrive_at_passed(linked: &Linked, direction: &mut Direction) {
+    direction.join_pairs(|first, second| {
+        let over = first.via.as_ref().filter(|via| via.how == Pass::Over)?;
+        let is_bare = first.end.subjects.is_empty() && first.duration_secs.is_none() && !first.returns;
+        let comes = matches!(second.movement, Move::Static | Move::Follow | Move::PushIn)
+            && !second.cut
+            && second.start.subjects.is_empty()
+            && second.duration_secs.is_none()
+            && second.via.is_none();
+        let is_way = first.movement == Move::FlyThrough && is_bare && comes && over.objects == second.end.subjects;
+        is_way.then(|| {
+            let is_low = linked.texts_in(first.words.unwrap_or_default()).contains(&"low");
+            let angle = second.end.angle.or(is_low.then_some(ShotAngle::Low));
+            let end = Framing { angle, ..second.end.clone() };
+            let words = first.joint_words(second);
+            Step { start: first.start.clone(), end, speed: first.speed, words, ..Step::of(Move::PushIn) }
+        })
+    });
 }
 
 /// Goes to the thing before which the words stop: a camera that only turned to it would not be in front of it.
@@ -113,7 +136,7 @@ fn drive_away(linked: &Linked, step: &mut Step) {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture::linked;
+    use super::super::fixture::{direction, linked, read, seen};
     use super::*;
     use cinesplat_operator::Framing;
 
@@ -126,6 +149,23 @@ mod tests {
 
     fn about(id: u32) -> Framing {
         Framing { subjects: vec![id], ..Framing::default() }
+    }
+
+    #[test]
+    fn what_is_flown_over_and_then_shown_is_gone_to() {
+        let text = "drift in low across <obj-0> | and close on it";
+        let (linked, mut steps) = read(text, &[(Move::FlyThrough, 5), (Move::Static, 5)]);
+        steps[0].end = Framing::default();
+        steps[0].via = Some(Via { how: Pass::Over, objects: vec![5] });
+        let mut near = direction(steps);
+        arrive_at_passed(&linked, &mut near);
+        assert_eq!(seen(&near.program.steps), [(Move::PushIn, vec![5])]);
+        assert_eq!(near.program.steps[0].end.angle, Some(ShotAngle::Low));
+        let (linked, mut steps) = read(text, &[(Move::FlyThrough, 5), (Move::Static, 7)]);
+        steps[0].via = Some(Via { how: Pass::Over, objects: vec![5] });
+        let mut other = direction(steps);
+        arrive_at_passed(&linked, &mut other);
+        assert_eq!(other.program.steps.len(), 2);
     }
 
     #[test]

@@ -1,6 +1,6 @@
 //! How long the film is, where its words end with that.
 
-use cinesplat_language::{Linked, QuantityKind};
+use cinesplat_language::{Linked, QuantityKind, is_listed};
 use cinesplat_operator::{Program, Speed};
 use cinesplat_trajectory::Move;
 
@@ -33,7 +33,9 @@ pub(crate) fn take_total(linked: &Linked, direction: &mut Direction) {
     };
     let mut totals = (0..words.len()).filter_map(|at| Some((at, linked.secs_at(words[at])?)));
     let total = totals.find(|(at, _)| says_all(at + 1)).map(|(_, secs)| secs);
-    let alone = (direction.program.steps.len() > 1).then(|| last_sentence_secs(linked, &words)).flatten();
+    let alone = (direction.program.steps.len() > 1)
+        .then(|| last_sentence_secs(linked, &words).or_else(|| clause_secs(linked, &words)))
+        .flatten();
     let Some(secs) = total.or(alone) else { return };
     let is_total = |own: f64| (own - secs).abs() < 1e-9;
     let once = linked.quantities.iter().filter(|other| is_total(other.value)).count() == 1;
@@ -64,6 +66,23 @@ fn last_sentence_secs(linked: &Linked, words: &[&str]) -> Option<f64> {
         |word: &&str| linked.is_quantity(word) || BESIDE.contains(word) || TAKES.contains(word) || *word == ",";
     let takes = sentence.iter().any(|word| TAKES.contains(word) || BESIDE.contains(word));
     (takes && sentence.iter().all(is_plain)).then(|| linked.secs_at(secs)).flatten()
+}
+
+/// Least time of a clause of its own that is no hold's.
+const LEAST_CLAUSE_SECS: f64 = 8.0;
+/// Words of a hold, whose time may stand in a clause of its own.
+const HOLDS: &str = "hold holding stay staying rest static still linger pause keep dwell wait freeze";
+
+/// The time that stands alone in a clause, and is too long for that of one step: `Certainly not like a drone. 20 seconds.`
+fn clause_secs(linked: &Linked, words: &[&str]) -> Option<f64> {
+    let clauses: Vec<&[&str]> = words.split(|word| MARKS.contains(word)).filter(|clause| !clause.is_empty()).collect();
+    let alone = |nth: usize| {
+        let [word, beside @ ..] = clauses[nth] else { return None };
+        let secs = linked.secs_at(word).filter(|secs| *secs >= LEAST_CLAUSE_SECS)?;
+        let holds = nth > 0 && clauses[nth - 1].iter().any(|word| is_listed(HOLDS, word));
+        (!holds && beside.iter().all(|word| BESIDE.contains(word))).then_some(secs)
+    };
+    (0..clauses.len()).rev().find_map(alone)
 }
 
 /// Takes the length of the film from a step of several, which would leave the others none of it.

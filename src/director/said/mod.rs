@@ -338,6 +338,7 @@ pub(crate) fn take_said_of_all(linked: &Linked, objects: &[Object], direction: &
     endings::join_listed(linked, direction);
     slides::join_slides(linked, direction);
     still_briefs::move_still_films(linked, direction);
+    arrivals::arrive_at_passed(linked, direction);
     kept_back::keep_for_end(linked, direction);
     foot_ends::see_from_foot(linked, objects, &mut direction.program.steps);
     overheads::rise_from_above(linked, direction);
