@@ -67,7 +67,7 @@ fn a_limit_on_address_space_ends_in_an_error_and_never_in_an_abort() {
     let folder = tempfile::tempdir().unwrap();
     write_shot(folder.path());
     let program = env!("CARGO_BIN_EXE_cinesplat");
-    for kilobytes in [260_000, 300_000, 400_000, 800_000] {
+    for kilobytes in [280_000, 300_000, 400_000, 800_000] {
         let line = format!(
             "ulimit -v {kilobytes}; exec {program} render {SMALL_SCENE} --shot shot.json --overwrite --fresh -o f.mp4"
         );
@@ -118,7 +118,7 @@ fn a_program_that_barely_starts_ends_with_its_exit_code() {
 #[test]
 fn a_library_that_gets_no_thread_is_a_lack_of_memory() {
     let folder = tempfile::tempdir().unwrap();
-    for kilobytes in (260_000..=540_000).step_by(40_000) {
+    for kilobytes in (280_000..=560_000).step_by(40_000) {
         let plan = format!("plan {SMALL_SCENE} -p push_in -o plan.json --overwrite -q --solve fast");
         let (code, said) = under_limit(folder.path(), kilobytes, &plan);
         assert!(matches!(code, Some(0 | 71 | 127)), "{kilobytes} KB: {code:?} {said}");
