@@ -4,10 +4,11 @@
 //! them is sure of. The choice is that of the least Bayes risk among the readings (Kumar and Byrne 2004, "Minimum Bayes-risk decoding"):
 //! each stands for a share of the truth by its certainty, and what is lost with another is one minus their likeness.
 
-use cinesplat_operator::Step;
+use cinesplat_operator::{Framing, Step};
 use cinesplat_trajectory::Move;
 
 use crate::direction::Direction;
+use crate::said::as_orbit;
 
 /// Likeness of moves that lead to pictures of one kind: a push in and a way to a thing, an orbit and an arc.
 const KINDRED: f64 = 0.7;
@@ -53,8 +54,7 @@ fn likeness(some: &[Step], others: &[Step]) -> f64 {
 fn step_likeness(one: &Step, other: &Step) -> f64 {
     let is_either = (one.either_way || other.either_way) && one.movement.opposite() == Some(other.movement);
     // A picture at rest is what it shows.
-    let sizes = [one, other].map(|step| (step.end.size, step.end.height_frac.map(f64::to_bits)));
-    if one.movement == Move::Static && other.movement == Move::Static && is_contrary(sizes) {
+    if one.movement == Move::Static && other.movement == Move::Static && differ_in_size(&one.end, &other.end) {
         return 0.0;
     }
     let of_moves = match (one.movement, other.movement) {
@@ -70,20 +70,19 @@ fn step_likeness(one: &Step, other: &Step) -> f64 {
 }
 
 /// Whether both of two pictures state a size, and not the same.
-fn is_contrary<T: PartialEq>([(size, frac), (other_size, other_frac)]: [(Option<T>, Option<u64>); 2]) -> bool {
-    size.zip(other_size).is_some_and(|(own, other)| own != other)
-        || frac.zip(other_frac).is_some_and(|(own, other)| own != other)
+fn differ_in_size(one: &Framing, other: &Framing) -> bool {
+    let frac = |framing: &Framing| framing.height_frac.map(f64::to_bits);
+    one.size.zip(other.size).is_some_and(|(own, other)| own != other)
+        || frac(one).zip(frac(other)).is_some_and(|(own, other)| own != other)
 }
 
 /// The move that stands for all that lead to pictures of its kind.
 fn kind(movement: Move) -> Move {
     match movement {
-        Move::ArcLeft => Move::OrbitLeft,
-        Move::ArcRight => Move::OrbitRight,
         Move::PedestalUp => Move::CraneUp,
         Move::PedestalDown => Move::CraneDown,
         Move::Follow | Move::FlyThrough => Move::PushIn,
-        other => other,
+        other => as_orbit(other),
     }
 }
 

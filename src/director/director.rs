@@ -30,7 +30,7 @@ use crate::lettered::name_lettered;
 use crate::likeness::join_likenesses;
 use crate::located::absorb_places;
 use crate::model::Model;
-use crate::model_files::ModelFiles;
+use crate::model_files::{ModelFiles, folder_of};
 use crate::names::{FoundMention, Names, NamesFiles};
 use crate::numbered_lists::name_numbered;
 use crate::ordinals::point_by_order;
@@ -80,11 +80,10 @@ impl Director {
     /// [`DirectorError::Read`] · [`DirectorError::BadModel`] when a file is damaged, of another version, or does not
     /// fit the others.
     pub fn load(path: &Path) -> Result<Self, DirectorError> {
-        let folder = if path.is_dir() { path } else { path.parent().unwrap_or(Path::new(".")) };
+        let folder = folder_of(path);
         let has_names = NamesFiles::NAMES.iter().any(|name| folder.join(name).exists());
         let names = if has_names { Names::load(folder)? } else { Names::embedded()? };
-        let models = ModelFiles::read_all(path)?.iter().map(Model::load).collect::<Result<_, _>>()?;
-        Ok(Self { models, names })
+        Self::of(&ModelFiles::read_all(path)?, names)
     }
 
     /// A director from model files in memory, with the built-in network of names.
@@ -100,11 +99,16 @@ impl Director {
     /// # Errors
     /// [`DirectorError::BadModel`] when a file is damaged, of another version, or does not fit the others, and without files.
     pub fn from_all(files: &[ModelFiles]) -> Result<Self, DirectorError> {
-        let models = files.iter().map(Model::load).collect::<Result<Vec<_>, _>>()?;
-        if models.is_empty() {
+        if files.is_empty() {
             return Err(bad_weights(&"no model", &"at least one"));
         }
-        Ok(Self { models, names: Names::embedded()? })
+        Self::of(files, Names::embedded()?)
+    }
+
+    /// A director of the networks of some files, at least one.
+    fn of(files: &[ModelFiles], names: Names) -> Result<Self, DirectorError> {
+        let loaded: Vec<Result<Model, DirectorError>> = files.par_iter().map(Model::load).collect();
+        Ok(Self { models: loaded.into_iter().collect::<Result<_, _>>()?, names })
     }
 
     /// Names of the networks, and the hash of the weights, as shots store them: of several networks it is the hash of their hashes.

@@ -13,13 +13,12 @@ const JOINTS: &str = "so because as like where which since though although while
 /// Words by which a fragment belongs to what stands beside it.
 const BINDS: &str = "not no never without don't it them";
 /// Senses of words that tell how pictures change or what they show.
-const TELLING: [&str; 43] = [
+const TELLING: [&str; 46] = [
     "in", "out", "left", "right", "up", "down", "around", "past", "through", "over", "under", "between", "behind",
     "along", "across", "turn", "nod", "bank", "lens", "sideways", "lift", "circle", "curve", "vertigo", "whip",
     "follow", "hold", "shake", "cut", "visit", "back", "again", "other", "begin", "end", "close", "detail", "wide",
-    "whole", "fill", "high", "low", "topdown",
+    "whole", "fill", "high", "low", "topdown", "eyelevel", "show", "go",
 ];
-const TELLING_TOO: [&str; 3] = ["eyelevel", "show", "go"];
 
 /// The words without fragments that ask for nothing; `None` where there are none, or where nothing is left.
 ///
@@ -28,12 +27,10 @@ const TELLING_TOO: [&str; 3] = ["eyelevel", "show", "go"];
 pub(crate) fn without_idle(linked: &Linked) -> Result<Option<Linked>, DirectorError> {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
     let senses = linked.senses()?;
-    let telling = [Senses::named(&TELLING)?, Senses::named(&TELLING_TOO)?];
+    let telling = Senses::named(&TELLING)?;
     let tells = |at: usize| {
         let own = senses.get(at).copied().unwrap_or_default();
-        words[at].starts_with('<')
-            || is_listed(BINDS, words[at])
-            || telling.iter().any(|telling| own.overlaps(*telling))
+        words[at].starts_with('<') || is_listed(BINDS, words[at]) || own.overlaps(telling)
     };
     let is_idle = |[from, to]: &[usize; 2]| to - from > 1 && !(*from..*to).any(tells) && !directs(&words[*from..*to]);
     let bytes = |[from, to]: [usize; 2]| Some([linked.spans.get(from)?[0], linked.spans.get(to - 1)?[1]]);

@@ -25,34 +25,29 @@ pub struct ModelFiles {
     tokenizer: Cow<'static, [u8]>,
 }
 
+/// The files of a folder in `models` that are compiled into the program.
+macro_rules! embedded {
+    ($folder:literal) => {
+        ModelFiles {
+            manifest: include_bytes!(concat!("../../models/", $folder, "director.json")).into(),
+            weights: include_bytes!(concat!("../../models/", $folder, "director.safetensors")).into(),
+            tokenizer: include_bytes!(concat!("../../models/", $folder, "director.tokenizer.json")).into(),
+        }
+    };
+}
+
 impl ModelFiles {
     /// Names of the files.
     pub const NAMES: [&str; 3] = [WEIGHTS_FILE, TOKENIZER_FILE, MANIFEST_FILE];
 
     /// The model that is compiled into the program.
     pub fn embedded() -> Self {
-        Self {
-            manifest: include_bytes!("../../models/director.json").into(),
-            weights: include_bytes!("../../models/director.safetensors").into(),
-            tokenizer: include_bytes!("../../models/director.tokenizer.json").into(),
-        }
+        embedded!("")
     }
 
     /// The models that are compiled into the program, the first one first.
     pub fn embedded_all() -> [Self; 3] {
-        [
-            Self::embedded(),
-            Self {
-                manifest: include_bytes!("../../models/director-6/director.json").into(),
-                weights: include_bytes!("../../models/director-6/director.safetensors").into(),
-                tokenizer: include_bytes!("../../models/director-6/director.tokenizer.json").into(),
-            },
-            Self {
-                manifest: include_bytes!("../../models/director-8/director.json").into(),
-                weights: include_bytes!("../../models/director-8/director.safetensors").into(),
-                tokenizer: include_bytes!("../../models/director-8/director.tokenizer.json").into(),
-            },
-        ]
+        [Self::embedded(), embedded!("director-6/"), embedded!("director-8/")]
     }
 
     /// Reads a model and those in the folders beside its files, in the order of their names; `path` is the folder, or the
@@ -61,7 +56,7 @@ impl ModelFiles {
     /// # Errors
     /// Those of [`read`](Self::read).
     pub fn read_all(path: &Path) -> Result<Vec<Self>, DirectorError> {
-        let folder = if path.is_dir() { path } else { path.parent().unwrap_or(Path::new(".")) };
+        let folder = folder_of(path);
         let mut models = vec![Self::read(path)?];
         let failed = |source| DirectorError::Read { path: folder.to_owned(), source };
         let entries = std::fs::read_dir(folder).map_err(failed)?.collect::<Result<Vec<_>, _>>().map_err(failed)?;
@@ -79,7 +74,7 @@ impl ModelFiles {
     /// # Errors
     /// [`DirectorError::Read`] · [`DirectorError::BadModel`] for a file above 256 MiB.
     pub fn read(path: &Path) -> Result<Self, DirectorError> {
-        let folder = if path.is_dir() { path } else { path.parent().unwrap_or(Path::new(".")) };
+        let folder = folder_of(path);
         let manifest = if path.is_dir() { path.join(MANIFEST_FILE) } else { path.to_owned() };
         Ok(Self {
             manifest: read_capped(&manifest)?.into(),
@@ -212,6 +207,11 @@ impl ModelFiles {
         check_hash(TOKENIZER_FILE, &self.tokenizer, &manifest.tokenizer_sha256)?;
         Ok(manifest)
     }
+}
+
+/// The folder of a model; `path` is that, or a file in it.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    if path.is_dir() { path } else { path.parent().unwrap_or(Path::new(".")) }
 }
 
 pub(crate) fn read_capped(path: &Path) -> Result<Vec<u8>, DirectorError> {

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::network::{NamesConfig, NamesNetwork};
 use crate::error::DirectorError;
-use crate::model_files::{check_hash, read_capped};
+use crate::model_files::{check_hash, folder_of, read_capped};
 use crate::network::Parameters;
 use crate::tensor_file::{Packing, bad, pack_tensors, read_tensors, reason};
 
@@ -55,7 +55,7 @@ impl NamesFiles {
     /// # Errors
     /// [`DirectorError::Read`] · [`DirectorError::BadModel`] for a file above 256 MiB.
     pub fn read(path: &Path) -> Result<Self, DirectorError> {
-        let folder = if path.is_dir() { path } else { path.parent().unwrap_or(Path::new(".")) };
+        let folder = folder_of(path);
         Ok(Self {
             manifest: read_capped(&folder.join(MANIFEST_FILE))?.into(),
             weights: read_capped(&folder.join(WEIGHTS_FILE))?.into(),

@@ -87,8 +87,7 @@ pub(crate) fn drop_height_subjects(linked: &Linked, direction: &mut Direction) {
 
 /// Takes a clause about the lens for no picture of its own: `.. then pan right to the shelves. Wide lens so the room looks its best`.
 pub(crate) fn drop_lenses(linked: &Linked, direction: &mut Direction) {
-    for nth in (1..direction.program.steps.len()).rev() {
-        let step = &direction.program.steps[nth];
+    direction.join_pairs(|before, step| {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let of_lens = words.iter().any(|word| matches!(*word, "lens" | "lenses"));
         let is_bare = step.movement == Move::Static
@@ -96,12 +95,9 @@ pub(crate) fn drop_lenses(linked: &Linked, direction: &mut Direction) {
             && step.duration_secs.is_none()
             && !step.cut
             && step.with.is_empty();
-        if of_lens && is_bare && !(0..words.len()).any(|at| is_camera_verb(&words, at)) {
-            let before = &direction.program.steps[nth - 1];
-            let one = Step { words: before.joint_words(step), ..before.clone() };
-            direction.join_steps(nth, one);
-        }
-    }
+        let is_clause = of_lens && is_bare && !(0..words.len()).any(|at| is_camera_verb(&words, at));
+        is_clause.then(|| Step { words: before.joint_words(step), ..before.clone() })
+    });
 }
 
 /// A clause about the camera's height at its end, without a verb of a move: its first word, and the things that it names.

@@ -14,6 +14,8 @@ const LAST: &str = "last lastly finally late";
 const CLOSE: &str = "close closeup close-up tight near details detail macro";
 /// Most words between a verb and the end.
 const NEAR: usize = 5;
+/// Most words between `the whole` and those that keep it for the end.
+const AROUND: usize = 8;
 
 /// Shows at its end what a film keeps for it.
 pub(crate) fn keep_for_end(linked: &Linked, direction: &mut Direction) {
@@ -65,16 +67,13 @@ fn show_whole_last(linked: &Linked, direction: &mut Direction) {
 /// Whether words show details, and all of the thing only at last.
 fn keeps_whole_back(words: &[&str]) -> bool {
     let is_close = words.iter().any(|word| is_listed(CLOSE, word));
-    let whole = |at: usize| is_listed("whole entire complete full all", words[at]);
-    let until = |at: usize| {
-        let behind = words[at + 1..].iter().take(8);
-        let waits = |word: &str| is_listed("until till only", word);
-        let before = words[..at].iter().rev().take(8);
-        let is_last = |word: &str| is_listed("last end finally very", word);
-        let (mut behind, mut all) = (behind.clone(), before.chain(behind));
-        behind.any(|word| waits(word)) && all.any(|word| is_last(word))
+    let is_whole = |at: usize| is_listed("whole entire complete full all", words[at]);
+    let waits = |at: usize| {
+        let to = words.len().min(at + 1 + AROUND);
+        words[at + 1..to].iter().any(|word| is_listed("until till only", word))
+            && words[at.saturating_sub(AROUND)..to].iter().any(|word| is_listed("last end finally very", word))
     };
-    is_close && (0..words.len()).any(|at| whole(at) && until(at))
+    is_close && (0..words.len()).any(|at| is_whole(at) && waits(at))
 }
 
 #[cfg(test)]

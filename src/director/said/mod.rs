@@ -81,6 +81,7 @@ pub(crate) use bans::asks_for;
 pub(crate) use briefs::directs;
 pub(crate) use directions::is_form;
 pub use levels::take_levels;
+pub(crate) use open::as_orbit;
 pub(crate) use openings::abbreviated_size;
 pub(crate) use pans::pan_from_first_to_last;
 pub(crate) use scanned::frame_parts;

@@ -229,7 +229,7 @@ fn says_retrace(linked: &Linked, bytes: [usize; 2]) -> bool {
 const BARE_BACK: [&str; 8] = ["and", "then", "back", "again", "once", "more", ",", "."];
 
 /// A move with an arc as an orbit: both are circles about a subject.
-pub(super) fn as_orbit(movement: Move) -> Move {
+pub(crate) fn as_orbit(movement: Move) -> Move {
     match movement {
         Move::ArcLeft => Move::OrbitLeft,
         Move::ArcRight => Move::OrbitRight,

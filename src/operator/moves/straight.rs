@@ -324,10 +324,10 @@ fn free_slide_length(
         Some(Amount::Units(units)) => units,
         Some(Amount::Slight) => 0.12 * distance,
         Some(Amount::Large) => 0.9 * distance,
-        // After another move it keeps in the picture what that showed.
-        _ if context.before.is_some() && !context.step.end.hidden => {
-            lerp((0.3, 0.55), context.parameters[6]) * distance.max(0.8 * reach)
+        _ => {
+            // After another move it keeps in the picture what that showed.
+            let keeps = context.before.is_some() && !context.step.end.hidden;
+            lerp(if keeps { (0.3, 0.55) } else { (0.55, 1.0) }, context.parameters[6]) * distance.max(0.8 * reach)
         }
-        _ => lerp((0.55, 1.0), context.parameters[6]) * distance.max(0.8 * reach),
     }
 }
