@@ -223,8 +223,10 @@ impl Director {
     pub fn direct(&self, linked: &Linked, scene: &SceneContext<'_>) -> Result<Direction, DirectorError> {
         let asked = without_idle(linked)?;
         let texts: Vec<&Linked> = std::iter::once(linked).chain(&asked).collect();
-        let read = |model: &Model| texts.iter().map(|text| model.direct(text, linked, scene)).collect::<Vec<_>>();
-        let found: Vec<Result<Direction, DirectorError>> = self.models.par_iter().flat_map_iter(read).collect();
+        let tasks: Vec<(&Model, &Linked)> =
+            self.models.iter().flat_map(|model| texts.iter().map(move |text| (model, *text))).collect();
+        let found: Vec<Result<Direction, DirectorError>> =
+            tasks.par_iter().map(|(model, text)| model.direct(text, linked, scene)).collect();
         let mut readings = Vec::with_capacity(found.len());
         let mut first_error = None;
         for reading in found {

@@ -8,7 +8,9 @@ use super::batch::{MentionBatch, SentenceBatch};
 use super::mention_input::{MAX_SPAN, NUM_MENTION_FEATURES, NUM_PAIR_FEATURES};
 use super::ngrams::NUM_BUCKETS;
 use super::sentence::{NUM_MATCHES, NUM_WORD_FEATURES};
-use crate::network::{AttentionLayer, Dropout, FeedForward, Linear, Norm, Parameters, Start, Visibility};
+use crate::network::{
+    AttentionLayer, Dropout, FeedForward, Linear, Norm, Parameters, Start, Visibility, matrix_product,
+};
 
 /// Number of tags: outside, first word of a mention, further word.
 pub const NUM_TAGS: usize = 3;
@@ -166,7 +168,7 @@ impl NamesNetwork {
         let focus = (self.focus.apply(&inside)?.squeeze(2)? + &batch.word_mask)?; // [mentions, span]
         let weights = candle_nn::ops::softmax(&focus, D::Minus1)?.unsqueeze(2)?; // [mentions, span, 1]
         let vector = dropout.apply(&inside.broadcast_mul(&weights)?.sum(1)?)?; // [mentions, width]
-        let focused = batch.matches.matmul(&weights)?.reshape((size, objects, NUM_MATCHES))?; // [mentions, objects, matches]
+        let focused = matrix_product(&batch.matches, &weights)?.reshape((size, objects, NUM_MATCHES))?; // [mentions, objects, matches]
         let (_, embedding) = words.vectors.dims2()?;
         let labels = words.vectors.index_select(&batch.label_rows, 0)?.reshape((size * objects, (), embedding))?; // [pairs, words, embedding]
         let labels = labels.broadcast_mul(&batch.label_weights)?.sum(1)?; // [pairs, embedding]

@@ -12,6 +12,7 @@ use super::config::ModelConfig;
 use super::dropout::Dropout;
 use super::key_batch::{ANCHOR_WIDTH, KeyBatch};
 use super::layers::{AttentionLayer, FeedForward, Linear, Norm, Visibility};
+use super::matrix_product::matrix_product;
 use super::parameters::{Parameters, Start};
 use crate::codes::{Field, POSE_WIDTH};
 use crate::keys::MAX_KEYS;
@@ -53,10 +54,11 @@ impl KeyEmbedding {
     /// Embeddings of keys: `[batch, keys, width]`
     fn apply(&self, keys: &KeyBatch, memory: &Memory) -> Result<Tensor> {
         let [arrive, depart, way] = &keys.objects;
-        let attended = [arrive, depart, way].map(|weights| weights.matmul(&memory.objects));
+        let attended = [arrive, depart, way].map(|weights| matrix_product(weights, &memory.objects));
         let [arrive, depart, way] = attended;
         let objects = Tensor::cat(&[arrive?, depart?, way?], 2)?; // [batch, keys, 3 width]
-        let (words, last) = (keys.words.matmul(&memory.text)?, keys.last_word.matmul(&memory.text)?);
+        let (words, last) =
+            (matrix_product(&keys.words, &memory.text)?, matrix_product(&keys.last_word, &memory.text)?);
         let words = Tensor::cat(&[words, last], 2)?; // [batch, keys, 2 width]
         let sum = (self.classes.apply(&keys.classes)? + self.objects.apply(&objects)?)?;
         sum + self.words.apply(&words)?

@@ -9,6 +9,7 @@ use candle_core::{Device, Result, Tensor};
 use super::config::ModelConfig;
 use super::decoder::Memory;
 use super::layers::Linear;
+use super::matrix_product::matrix_product;
 use super::parameters::{Parameters, Start};
 use super::prompt_batch::PromptBatch;
 use crate::codes::{Field, OBJECT_POINTERS, QUANTITY_POINTERS};
@@ -81,7 +82,7 @@ impl Pointer {
         let num_items = keys.dim(1)?;
         let query = self.query.apply(states)?.reshape((batch, num_keys * self.num, self.width))?; // [batch, keys * num, width]
         let query = (query * f64::from((self.width as f32).sqrt().recip()))?;
-        let scores = query.matmul(&keys.transpose(1, 2)?.contiguous()?)?; // [batch, keys * num, items]
+        let scores = matrix_product(&query, &keys.transpose(1, 2)?)?; // [batch, keys * num, items]
         let absent = Tensor::from_vec(absent, (batch, 1, num_items), &Device::Cpu)?;
         scores.broadcast_add(&absent)?.reshape((batch, num_keys, self.num, num_items))
     }
@@ -119,9 +120,9 @@ impl Heads {
 
     /// Scores of the keys that `states` predict.
     pub(super) fn apply(&self, states: &Tensor, memory: &Memory, batch: &PromptBatch) -> Result<Scores> {
-        let named = batch.object_tokens.matmul(&memory.text)?; // [batch, objects, width]
+        let named = matrix_product(&batch.object_tokens, &memory.text)?; // [batch, objects, width]
         let objects = Tensor::cat(&[&memory.objects, &named], 2)?; // [batch, objects, 2 width]
-        let quantities = batch.quantity_tokens.matmul(&memory.text)?; // [batch, quantities, width]
+        let quantities = matrix_product(&batch.quantity_tokens, &memory.text)?; // [batch, quantities, width]
         let whole = memory.text.narrow(1, 0, 1)?.contiguous()?; // [batch, 1, width]
         Ok(Scores {
             classes: self.classes.apply(states)?,

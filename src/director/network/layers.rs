@@ -8,6 +8,7 @@ use candle_nn::Activation;
 use super::attention::Attention;
 use super::bias::AddBias;
 use super::dropout::Dropout;
+use super::matrix_product::matrix_product;
 use super::norm::RmsNorm;
 use super::parameters::{Parameters, Start};
 
@@ -46,7 +47,7 @@ impl Linear {
         let mut shape = input.dims().to_vec();
         let (from, to) = self.weight.dims2()?;
         let rows = input.elem_count() / from;
-        let flat = input.reshape((rows, from))?.matmul(&self.weight)?; // [rows, out]
+        let flat = matrix_product(&input.reshape((rows, from))?, &self.weight)?; // [rows, out]
         let flat = match &self.bias {
             Some(bias) => AddBias.apply(&flat, bias)?,
             None => flat,

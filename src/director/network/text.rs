@@ -6,6 +6,7 @@ use super::bert::Bert;
 use super::config::ModelConfig;
 use super::dropout::Dropout;
 use super::layers::{AttentionLayer, FeedForward, Linear, Norm, Visibility};
+use super::matrix_product::matrix_product;
 use super::parameters::{Parameters, Start};
 use super::prompt_batch::{NUM_KINDS, PromptBatch};
 
@@ -78,7 +79,7 @@ impl TextEncoder {
             inputs = (inputs + from_bert.apply(&bert.apply(batch, dropout)?)?)?;
         }
         if let Some(senses) = &self.senses {
-            inputs = (inputs + batch.senses.matmul(senses)?.reshape(shape)?)?;
+            inputs = (inputs + matrix_product(&batch.senses, senses)?.reshape(shape)?)?;
         }
         let mut states = inputs.broadcast_add(&positions(batch.num_tokens, width)?)?;
         let all = Visibility { exists: batch.token_exists.clone(), causal: false };
