@@ -103,7 +103,11 @@ fn text(prompt: &str, reading: &Reading, objects: &ObjectSet) -> String {
         let words = reading.words_of(step, prompt);
         // Writing to a string cannot fail.
         let _ = writeln!(text, "{number}. \"{words}\"\n   {}", explain::sentence(step, objects));
-        let _ = writeln!(text, "   {sure:.0} % sure, least sure of {} ({weakest:.0} %)", certainty.weakest.0);
+        let agreed = certainty.voices.map_or_else(String::new, |voices| {
+            let perhaps = voices.otherwise.map_or_else(String::new, |movement| format!(", others read {movement}"));
+            format!("; {:.0} % of the readings agree{perhaps}", 100.0 * voices.agreement)
+        });
+        let _ = writeln!(text, "   {sure:.0} % sure, least sure of {} ({weakest:.0} %){agreed}", certainty.weakest.0);
     }
     if program.steps.is_empty() {
         text.push_str("nothing that a camera could do\n");
@@ -146,6 +150,7 @@ fn document(prompt: &str, reading: &Reading, names: &[NamedObject]) -> Value {
                 "words": step.words,
                 "text": reading.words_of(step, prompt),
                 "probability": certainty.probability,
+                "agreement": certainty.voices.map(|voices| voices.agreement),
                 "least_sure_of": certainty.weakest.0,
             })
         })

@@ -4,10 +4,12 @@
 //! them is sure of. The choice is that of the least Bayes risk among the readings (Kumar and Byrne 2004, "Minimum Bayes-risk decoding"):
 //! each stands for a share of the truth by its certainty, and what is lost with another is one minus their likeness.
 
+use std::collections::BTreeMap;
+
 use cinesplat_operator::{Framing, Step};
 use cinesplat_trajectory::Move;
 
-use crate::direction::Direction;
+use crate::direction::{Direction, Voices};
 use crate::said::as_orbit;
 
 /// Likeness of moves that lead to pictures of one kind: a push in and a way to a thing, an orbit and an arc.
@@ -30,7 +32,40 @@ pub(crate) fn consensus(mut readings: Vec<Direction>) -> Direction {
             best = nth;
         }
     }
-    if readings.is_empty() { Direction::default() } else { readings.swap_remove(best) }
+    let voices = readings.get(best).map(|chosen| voices(chosen, &readings, &certainties)).unwrap_or_default();
+    let mut chosen = if readings.is_empty() { Direction::default() } else { readings.swap_remove(best) };
+    for (certainty, voices) in chosen.certainty.iter_mut().zip(voices) {
+        certainty.voices = Some(voices);
+    }
+    chosen
+}
+
+/// What the readings, of these certainties, say of each step of the chosen one; nothing if it is the only one.
+fn voices(chosen: &Direction, readings: &[Direction], certainties: &[f64]) -> Vec<Voices> {
+    let all: f64 = certainties.iter().sum();
+    if readings.len() < 2 || all <= 0.0 {
+        return Vec::new();
+    }
+    let of = |step: &Step| {
+        let (mut agreement, mut others) = (0.0, BTreeMap::<Move, f64>::new());
+        for (reading, certainty) in readings.iter().zip(certainties) {
+            let steps = &reading.program.steps;
+            let likeness = steps.iter().map(|other| step_likeness(step, other)).fold(0.0, f64::max);
+            agreement += certainty * likeness / all;
+            let other = steps.iter().find(|other| share_words(step, other)).map(|other| other.movement);
+            if let Some(other) = other.filter(|other| likeness == 0.0 && *other != step.movement) {
+                *others.entry(other).or_default() += certainty;
+            }
+        }
+        let otherwise = others.into_iter().max_by(|one, other| one.1.total_cmp(&other.1)).map(|(movement, _)| movement);
+        Voices { agreement, otherwise }
+    };
+    chosen.program.steps.iter().map(of).collect()
+}
+
+/// Whether two steps come from some of the same words.
+fn share_words(one: &Step, other: &Step) -> bool {
+    one.words.zip(other.words).is_some_and(|([from, to], [start, end])| start < to && from < end)
 }
 
 /// Likeness of programs, 0..=1: the steps that they have in common in this order, over those of the longer one.
@@ -94,8 +129,7 @@ mod tests {
 
     fn reading(steps: &[(Move, &[u32])], probability: f64) -> Direction {
         let mut reading = direction(steps.iter().map(|(movement, ids)| about(*movement, ids, [0, 1])).collect());
-        let certainty = StepCertainty { probability, weakest: ("move", probability), words: None };
-        reading.certainty = vec![certainty; steps.len()];
+        reading.certainty = vec![StepCertainty::of(probability, None); steps.len()];
         reading
     }
 
@@ -142,6 +176,22 @@ mod tests {
         assert_eq!(consensus(Vec::new()), Direction::default());
         let nothing = reading(&[], 0.0);
         assert_eq!(chosen(&[nothing, reading(&[(Move::PanLeft, &[1])], 0.1)]), [Move::PanLeft]);
+    }
+
+    #[test]
+    fn each_step_knows_who_agrees_and_what_others_take_it_for() {
+        let chosen = consensus(vec![
+            reading(&[(Move::ArcLeft, &[1]), (Move::Static, &[1])], 0.4),
+            reading(&[(Move::ArcLeft, &[1]), (Move::PushIn, &[1])], 0.2),
+            reading(&[(Move::ArcLeft, &[1])], 0.2),
+        ]);
+        let voices: Vec<Voices> = chosen.certainty.iter().filter_map(|certainty| certainty.voices).collect();
+        assert_eq!(voices.len(), 2);
+        assert!((voices[0].agreement - 1.0).abs() < 1e-9 && voices[0].otherwise.is_none(), "{voices:?}");
+        assert!((voices[1].agreement - 0.5).abs() < 1e-9, "{voices:?}");
+        assert_eq!(voices[1].otherwise, Some(Move::ArcLeft), "the fixture's steps share their words");
+        let alone = consensus(vec![reading(&[(Move::ArcLeft, &[1])], 0.4)]);
+        assert_eq!(alone.certainty[0].voices, None);
     }
 
     #[test]

@@ -1,6 +1,7 @@
 //! What the director makes of a prompt.
 
 use cinesplat_operator::{Program, Step, StepCameras};
+use cinesplat_trajectory::Move;
 
 /// Certainty of a step of the program.
 #[derive(Debug, Clone, PartialEq)]
@@ -12,6 +13,24 @@ pub struct StepCertainty {
     pub weakest: (&'static str, f64),
     /// Byte range of the prompt that the step comes from.
     pub words: Option<[usize; 2]>,
+    /// What several readings of the prompt say of the step; `None` for a prompt that is read once.
+    pub voices: Option<Voices>,
+}
+
+/// What several readings of a prompt say of a step of the one that counts.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Voices {
+    /// Share of the readings that have the step, each by its certainty and by how like its step is, 0..=1.
+    pub agreement: f64,
+    /// What most of those that read the words as another move take them for.
+    pub otherwise: Option<Move>,
+}
+
+impl StepCertainty {
+    /// A step of which no choice stands out.
+    pub fn of(probability: f64, words: Option<[usize; 2]>) -> Self {
+        Self { probability, weakest: ("move", probability), words, voices: None }
+    }
 }
 
 /// Certainty of a film of which the words say what is seen, and leave the moves open.
@@ -71,11 +90,7 @@ impl Direction {
 
     /// Films other steps than the network has read, which are as good as the words leave it open.
     pub(crate) fn replace_steps(&mut self, steps: Vec<Step>) {
-        let certainty = |step: &Step| StepCertainty {
-            probability: OPEN_PROBABILITY,
-            weakest: ("move", OPEN_PROBABILITY),
-            words: step.words,
-        };
+        let certainty = |step: &Step| StepCertainty::of(OPEN_PROBABILITY, step.words);
         self.certainty = steps.iter().map(certainty).collect();
         // The network's cameras belong to other steps.
         self.step_cameras.clear();

@@ -63,7 +63,7 @@ mod verbs_apart;
 
 pub use calibration::Calibration;
 pub use decoding::Choice;
-pub use direction::{Direction, StepCertainty};
+pub use direction::{Direction, StepCertainty, Voices};
 pub use director::{Director, SceneContext};
 pub use error::DirectorError;
 pub use frame::SceneFrame;

@@ -93,7 +93,7 @@ mod tests {
 
     /// A step that shows one thing, of some words, and is quite sure.
     fn shown(movement: Move, id: u32, words: [usize; 2]) -> Direction {
-        let certainty = vec![StepCertainty { probability: 0.9, weakest: ("move", 0.9), words: Some(words) }];
+        let certainty = vec![StepCertainty::of(0.9, Some(words))];
         Direction { certainty, ..direction(vec![about(movement, &[id], words)]) }
     }
 

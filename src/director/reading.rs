@@ -183,7 +183,8 @@ fn certainty(
     let of = |key_idx: usize| certainties.get(key_idx).map_or(&[][..], |certainty| &certainty.choices);
     let starts = of(start).iter().filter(|(choice, _)| !choice.is_arrival());
     let ends = of(end).iter().filter(|(choice, _)| choice.is_arrival());
-    let mut out = StepCertainty { probability: 1.0, weakest: (Choice::Class(Field::Next).into(), 1.0), words };
+    let mut out =
+        StepCertainty { probability: 1.0, weakest: (Choice::Class(Field::Next).into(), 1.0), words, voices: None };
     if keys.get(start).is_none_or(|key| key.class(Field::Next) != NEXT_SEGMENT) {
         out.probability = 0.0;
     }

@@ -66,7 +66,7 @@ mod tests {
         let framing = |ids: &[u32]| Framing { subjects: ids.to_vec(), ..Framing::default() };
         let step = Step { start: framing(start), end: framing(&[1]), ..Step::of(Move::Static) };
         let mut direction = Direction::of(Program { steps: vec![step], ..Program::default() });
-        direction.certainty = vec![StepCertainty { probability, weakest: ("move", probability), words: None }];
+        direction.certainty = vec![StepCertainty::of(probability, None)];
         approach(prompt, &mut direction);
         direction.program.steps[0].movement
     }

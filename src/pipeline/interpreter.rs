@@ -42,6 +42,7 @@ impl Interpreter {
             probability: certainty.probability,
             weakest: certainty.weakest,
             words: step.words,
+            voices: None,
         });
         let certainty = certainty.collect();
         Ok(Direction { program: understood.program, step_cameras: Vec::new(), certainty, unmet: Vec::new() })

@@ -117,7 +117,7 @@ fn bench_readings_counts_the_sentences_that_are_read_as_meant() {
     let right = |prompt: &str, steps: &[(&str, u32)]| {
         std::fs::write(folder.path().join("s.jsonl"), sentence(prompt, steps)).unwrap();
         let table = data(folder.path(), &["bench", "readings", "s.jsonl"]);
-        table == "file,right,sentences,percent\ns.jsonl,1,1,100.0\n"
+        table == "file,right,sentences,percent,right_with_warning,wrong_with_warning\ns.jsonl,1,1,100.0,0,0\n"
     };
     assert!(right("push in on the couch", &[("push-in follow", 1)]));
     assert!(right("orbit the floor lamp to the left", &[("orbit-left", 2)]));

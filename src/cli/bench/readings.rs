@@ -12,8 +12,8 @@ use crate::cli::model_args::ModelArgs;
 use crate::cli::outputs;
 use crate::cli::read::read_linked;
 use cinesplat::language::{NamedObject, program_to_notation};
-use cinesplat::operator::{Program, Step};
-use cinesplat::pipeline::Interpreter;
+use cinesplat::operator::Step;
+use cinesplat::pipeline::{Interpreter, ProblemKind, Reading};
 use cinesplat::trajectory::Move;
 
 /// Measure how many sentences are read as the moves that their writers mean
@@ -24,7 +24,8 @@ Examples:
   cinesplat bench readings prompts/outsiders/mixed.jsonl --misses
 A line of a file is a sentence: {\"id\", \"things\": [names], \"prompt\", \"means\", \"steps\": [{\"moves\": [names], \"objs\": [numbers of
 things, from 1], \"optional\"}]}. A sentence is read right where its steps are those, in order: each has one of the moves and is about all of
-the things. A picture at rest more is no error. Amounts, sizes, angles and speeds are not compared.")]
+the things. A picture at rest more is no error. Amounts, sizes, angles and speeds are not compared.
+The last two columns count the sentences, of those read right and of the others, that got a warning: part of them was not understood.")]
 pub(super) struct Args {
     /// Files of sentences
     #[arg(value_name = "SENTENCES.JSONL", required = true)]
@@ -68,35 +69,59 @@ fn moves<'de, D: Deserializer<'de>>(text: D) -> Result<Vec<Move>, D::Error> {
 impl Args {
     pub(super) fn run(self) -> Result<(), Failure> {
         let interpreter = self.models.interpreter()?;
-        let mut table = "file,right,sentences,percent\n".to_owned();
-        let (mut all_right, mut all) = (0, 0);
+        let mut table = "file,right,sentences,percent,right_with_warning,wrong_with_warning\n".to_owned();
+        let mut all = Counts::default();
         for path in &self.files {
-            let sentences = sentences(path)?;
-            let mut right = 0;
-            for sentence in &sentences {
-                let program = read(&interpreter, sentence)?;
-                if is_right(&sentence.steps, &program.steps) {
-                    right += 1;
-                } else if self.misses {
-                    let read = program_to_notation(&program);
+            let mut counts = Counts::default();
+            for sentence in &sentences(path)? {
+                let reading = read(&interpreter, sentence)?;
+                let program = &reading.direction.program;
+                let is_right = is_right(&sentence.steps, &program.steps);
+                let has_warning = reading.problems.iter().any(|problem| problem.kind == ProblemKind::NotUnderstood);
+                counts.add(is_right, has_warning);
+                if !is_right && self.misses {
+                    let read = program_to_notation(program);
                     let Sentence { id, prompt, means, .. } = sentence;
                     console::note(&format!("{id}: {prompt:?}\n  means  {means}\n  read   {read}"));
                 }
             }
-            write_row(&mut table, &path.display().to_string(), right, sentences.len());
-            (all_right, all) = (all_right + right, all + sentences.len());
+            counts.write_row(&mut table, &path.display().to_string());
+            all.add_all(&counts);
         }
         if self.files.len() > 1 {
-            write_row(&mut table, "all", all_right, all);
+            all.write_row(&mut table, "all");
         }
         console::data(&table)
     }
 }
 
-fn write_row(table: &mut String, name: &str, right: usize, count: usize) {
-    let percent = 100.0 * right as f64 / count.max(1) as f64;
-    // Writing to a string cannot fail.
-    let _ = writeln!(table, "{name},{right},{count},{percent:.1}");
+/// Numbers of sentences, of those read otherwise and of those read right: `[otherwise, right]`.
+#[derive(Default)]
+struct Counts {
+    read: [usize; 2],
+    with_warning: [usize; 2],
+}
+
+impl Counts {
+    fn add(&mut self, is_right: bool, has_warning: bool) {
+        self.read[usize::from(is_right)] += 1;
+        self.with_warning[usize::from(is_right)] += usize::from(has_warning);
+    }
+
+    fn add_all(&mut self, other: &Self) {
+        for idx in 0..2 {
+            self.read[idx] += other.read[idx];
+            self.with_warning[idx] += other.with_warning[idx];
+        }
+    }
+
+    fn write_row(&self, table: &mut String, name: &str) {
+        let Self { read: [otherwise, right], with_warning: [warned_otherwise, warned_right] } = self;
+        let all = otherwise + right;
+        let percent = 100.0 * *right as f64 / all.max(1) as f64;
+        // Writing to a string cannot fail.
+        let _ = writeln!(table, "{name},{right},{all},{percent:.1},{warned_right},{warned_otherwise}");
+    }
 }
 
 fn sentences(path: &Path) -> Result<Vec<Sentence>, Failure> {
@@ -111,12 +136,12 @@ fn sentences(path: &Path) -> Result<Vec<Sentence>, Failure> {
         .collect()
 }
 
-fn read(interpreter: &Interpreter, sentence: &Sentence) -> Result<Program, Failure> {
+fn read(interpreter: &Interpreter, sentence: &Sentence) -> Result<Reading, Failure> {
     let named = (1..).zip(&sentence.things).map(|(id, label)| NamedObject { id, label: label.clone() });
     let names: Vec<NamedObject> = named.collect();
     let linked = interpreter.director.link(&sentence.prompt, &names)?;
     let (reading, _) = read_linked(interpreter, &sentence.prompt, linked, &names)?;
-    Ok(reading.direction.program)
+    Ok(reading)
 }
 
 /// Whether the steps are those wanted, in order.

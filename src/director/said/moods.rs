@@ -142,7 +142,7 @@ mod tests {
             let to = linked.spans.last().map_or(0, |span| span[1]);
             steps.push(Step { words: Some([from, to]), ..Step::of(Move::Reveal) });
         }
-        let unsure = |step: &Step| StepCertainty { probability: 0.1, weakest: ("move", 0.1), words: step.words };
+        let unsure = |step: &Step| StepCertainty::of(0.1, step.words);
         let certainty = steps.iter().map(unsure).collect();
         let program = Program { steps, ..Program::default() };
         let mut direction = Direction { program, step_cameras: Vec::new(), certainty, unmet: Vec::new() };

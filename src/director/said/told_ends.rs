@@ -48,8 +48,7 @@ mod tests {
         let linked = linked(text);
         let words = |nth: usize| [linked.spans[firsts[nth]][0], linked.spans[firsts[nth + 1] - 1][1]];
         let steps = vec![about(Move::Static, &[5], words(0)), about(Move::FlyThrough, &[7], words(1))];
-        let certainty =
-            steps.iter().map(|step| StepCertainty { probability: 1.0, weakest: ("", 1.0), words: step.words });
+        let certainty = steps.iter().map(|step| StepCertainty::of(1.0, step.words));
         let mut direction = Direction { certainty: certainty.collect(), ..direction(steps) };
         move_told_ends(&linked, &mut direction);
         direction.program.steps.iter().map(|step| step.movement).collect()
