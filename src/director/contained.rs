@@ -43,6 +43,9 @@ pub(crate) fn point_by_words(prompt: &str, objects: &[NamedObject], found: &mut 
             easel = Some(vec![id]);
         }
         if is_number(said(prompt, &found[nth].mention)) {
+            if let Some(ids) = on_numbered_easel(said(prompt, &found[nth].mention), objects) {
+                found[nth].mention.ids = ids;
+            }
             continue;
         }
         let ids = held(prompt, objects, found, nth)
@@ -131,12 +134,28 @@ fn on_easel(prompt: &str, objects: &[NamedObject], found: &[FoundMention], nth: 
     let words: Vec<&Word> = own.iter().chain(after.iter().take(4)).collect();
     let at = own.iter().position(|word| is_listed(CANVASES, &word.text))?;
     let is_on = words[at + 1..].iter().take(3).map(|word| word.text.as_str()).collect::<Vec<_>>();
-    let is_on = matches!(is_on[..], ["on", "the" | "an" | "that", "easel"]);
+    let is_on = matches!(is_on[..], ["on", "the" | "an" | "that", "easel"] | ["on", "easel", ..]);
     let easels = || objects.iter().filter(|object| is_easel(&object.label));
     let has_easel = |ids: &[u32]| ids.iter().any(|id| label(objects, *id).is_some_and(is_easel));
     let named = found.get(nth + 1).map(|next| next.mention.ids.clone()).filter(|ids| has_easel(ids));
     let only = || easels().next().filter(|_| easels().count() == 1).map(|easel| vec![easel.id]);
     if is_on && !has_easel(&mention.ids) { named.or_else(only) } else { None }
+}
+
+/// The easel of `the painting on easel 2`.
+fn on_numbered_easel(words: &str, objects: &[NamedObject]) -> Option<Vec<u32>> {
+    let own = tokenize(words);
+    let on = own.iter().position(|word| word.text == "on")?;
+    let name = words.get(own.get(on + 1)?.span[0]..)?;
+    let is_named = |object: &&NamedObject| is_easel(&object.label) && object.label.eq_ignore_ascii_case(name);
+    let easel = objects.iter().find(is_named)?;
+    own[..on].iter().any(|word| is_listed(CANVASES, &word.text)).then(|| vec![easel.id])
+}
+
+/// Whether some words call an easel by what is on it, wherever that hangs: `the painting on the easel`.
+pub(crate) fn is_canvas_on_easel(words: &str, objects: &[NamedObject], ids: &[u32]) -> bool {
+    let is_canvas = tokenize(words).iter().take(3).any(|word| is_listed(CANVASES, &word.text));
+    is_canvas && matches!(ids, [id] if label(objects, *id).is_some_and(is_easel))
 }
 
 fn is_easel(label: &str) -> bool {

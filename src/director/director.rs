@@ -14,6 +14,7 @@ use glam::DVec3;
 use rayon::iter::{IntoParallelRefIterator as _, ParallelIterator as _};
 
 use crate::acting::acts;
+use crate::appositions::{drop_contents, drop_described, share_nouns};
 use crate::banned::name_banned;
 use crate::bearers::drop_other_bearers;
 use crate::consensus::consensus;
@@ -162,6 +163,9 @@ impl Director {
         name_numbered(prompt, objects, &mut found);
         let defined = name_lettered(prompt, objects, &mut found);
         let prompt = &*blanked(prompt, &defined);
+        let described = drop_described(prompt, objects, &mut found);
+        let prompt = &*blanked(prompt, &described);
+        share_nouns(prompt, objects, &mut found);
         name_by_label_words(prompt, objects, &mut found);
         name_by_uses(prompt, objects, &mut found);
         name_banned(prompt, objects, &mut found);
@@ -186,6 +190,8 @@ impl Director {
         name_by_parts(prompt, objects, &mut found)?;
         let acts = acts(prompt, objects, &mut found)?;
         let prompt = &*blanked(prompt, &acts);
+        let contents = drop_contents(prompt, &mut found);
+        let prompt = &*blanked(prompt, &contents);
         let parts: Vec<[usize; 2]> = found.iter().map(|found| found.mention.bytes).collect();
         let are_effects = are_effect_phrases(prompt, &parts)?;
         // The scene lacks no `bloom`, and the bike is not meant by it either: it is what the lens makes.

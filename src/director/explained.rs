@@ -4,7 +4,7 @@
 use std::collections::BTreeSet;
 
 use cinesplat_language::{
-    LanguageError, Mention, NamedObject, Relation, Things, Word, is_listed, own_part_at, stem, tokenize,
+    LanguageError, Mention, NamedObject, Relation, Things, Word, is_listed, is_no_thing, own_part_at, stem, tokenize,
 };
 
 use crate::names::FoundMention;
@@ -119,7 +119,9 @@ pub(crate) fn name_by_parts(
     for at in 1..words.len() {
         // `Lift your head` is about nobody's guitar.
         let is_body = is_listed("my our your", text(at - 1)) && is_listed(BODY, text(at));
-        if !is_listed(POINTS, text(at - 1)) || is_body {
+        let own = Mention { bytes: [words[at - 1].span[0], words[at].span[1]], ids: Vec::new() };
+        // `Fills the picture` is about no painting.
+        if !is_listed(POINTS, text(at - 1)) || is_body || is_no_thing(prompt, &own, objects) {
             continue;
         }
         let mut owners = Vec::new();

@@ -60,7 +60,7 @@ fn called_by_two(words: &str, taken: &str, objects: &[NamedObject]) -> Option<u3
 const PLACES: &str = "on in under above below by near beside behind atop";
 
 /// The words of a name before those of a place: `the teal plates` of `the teal plates on the shelf`.
-fn before_place(words: &str) -> &str {
+pub(crate) fn before_place(words: &str) -> &str {
     let place = tokenize(words).into_iter().skip(1).find(|word| is_listed(PLACES, &word.text));
     place.and_then(|word| words.get(..word.span[0])).unwrap_or(words)
 }

@@ -17,6 +17,7 @@
 
 mod acting;
 mod alternatives;
+mod appositions;
 mod banned;
 mod bearers;
 mod beats;

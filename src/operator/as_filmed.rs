@@ -9,8 +9,8 @@ use crate::world::{Subject, World};
 
 /// The program with the move first where a step says `handheld` before it, with flights that set out from a thing at
 /// that thing, with ways in through a door that nothing lies behind as ways from the door, with flights over things to
-/// what the next step shows, with descents to a worm's view that end at the floor, with tilts to what is aside as turns,
-/// and with slides from thing to thing that look where they go.
+/// what the next step shows, with ways over a rug and in among things that go straight, with worm's views of low things and descents
+/// to a worm's view at the floor, with tilts to what is aside as turns, and with slides from thing to thing that look where they go.
 pub(super) fn as_filmed(world: &World, program: &Program) -> Program {
     let mut filmed = program.clone();
     for (nth, step) in filmed.steps.iter_mut().enumerate() {
@@ -31,10 +31,13 @@ pub(super) fn as_filmed(world: &World, program: &Program) -> Program {
             step.end.subjects = via.objects;
             step.end.angle = Some(ShotAngle::High);
         }
-        if sinks_to_floor(step) && world.is_indoor() {
-            (step.end.angle, step.end.height) = (None, Some(LYING_RADII * world.camera_radius));
-        }
         if world.is_indoor() {
+            cross_rugs(world, step);
+            go_in_among(step);
+            if sinks_to_floor(step) {
+                (step.end.angle, step.end.height) = (None, Some(LYING_RADII * world.camera_radius));
+            }
+            creep_along_floor(world, step);
             stay_above_tables(world, step);
         } else {
             circle_lone_thing(step);
@@ -134,6 +137,56 @@ fn turns_aside(world: &World, before: Option<u32>, step: &Step) -> bool {
         world.in_capture_region(point + level) && world.beyond_corner_frac(point + level) <= 0.0
     };
     across.length() > APART_RADII * world.camera_radius && !stands(from, -way) && !stands(to, way)
+}
+
+/// Height up to which what lies on the floor is flat, over the camera's radius.
+const FLAT_RADII: f64 = 1.0;
+
+/// Goes its own way to what stands on a rug or behind it, where the words only say that the way leads over the rug.
+fn cross_rugs(world: &World, step: &mut Step) {
+    let leads = matches!(step.movement, Move::PushIn | Move::Follow | Move::PullOut) && !step.end.subjects.is_empty();
+    let is_rug = |id: &u32| {
+        world.subject(*id).is_some_and(|thing| {
+            let top = world.height_above_floor(thing.center) + thing.reach(world.frame.up);
+            top < FLAT_RADII * world.camera_radius
+        })
+    };
+    let over = step.via.as_ref().filter(|via| matches!(via.how, Pass::Over | Pass::Along));
+    if leads && over.is_some_and(|via| via.objects.iter().all(is_rug) && via.objects != step.end.subjects) {
+        step.via = None;
+    }
+}
+
+/// Goes its own way to a thing among several others, as a vase `between the chairs`: there is no gate that they all make.
+fn go_in_among(step: &mut Step) {
+    let is_way = matches!(step.movement, Move::PushIn | Move::Follow) && !step.end.subjects.is_empty();
+    let is_among = |via: &Via| via.how == Pass::Between && via.objects.len() > 2;
+    step.via = step.via.take().filter(|via| !(is_way && is_among(via)));
+}
+
+/// Height of a camera that creeps along a floor, over its radius.
+const CREEPING_RADII: f64 = 2.0;
+
+/// Takes a worm's view of a way in or out for one from the floor, where the subject is lower than a person's eyes: only what is higher
+/// is seen steeply from below.
+fn creep_along_floor(world: &World, step: &mut Step) {
+    let travels = matches!(step.movement, Move::PushIn | Move::Follow | Move::PullOut) && step.via.is_none();
+    let is_low = |id: &u32| {
+        world.subject(*id).is_some_and(|thing| {
+            world.height_above_floor(thing.center) + thing.reach(world.frame.up) < world.eye_height()
+        })
+    };
+    let subjects = if step.end.subjects.is_empty() { &step.start.subjects } else { &step.end.subjects };
+    if !travels || subjects.is_empty() || !subjects.iter().all(is_low) {
+        return;
+    }
+    let is_worm = |framing: &Framing| framing.angle == Some(ShotAngle::Worm) && framing.elevation_deg.is_none();
+    if is_worm(&step.start) || is_worm(&step.end) {
+        for framing in [&mut step.start, &mut step.end] {
+            framing.angle = framing.angle.filter(|angle| *angle != ShotAngle::Worm);
+            framing.height = framing.height.or(Some(CREEPING_RADII * world.camera_radius));
+        }
+    }
 }
 
 /// Whether a step sinks to where a worm looks from, which in a room is its floor, whatever the elevation there.

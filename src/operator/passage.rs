@@ -19,8 +19,8 @@ pub(super) const STANDING_FRAC: f64 = 0.15;
 /// Points per interval between two samples.
 const POINTS_PER_INTERVAL: usize = 8;
 
-/// The measured value of a passage and its allowed range; `None` for an unknown object and for `Past`, `Between` and
-/// `Over`, which other constraints measure.
+/// The measured value of a passage and its allowed range; `None` for an unknown object and for `Between` and `Over`, which other
+/// constraints measure.
 ///
 /// - `Under`: where the path is nearest to the upright axis through the box, height of the box's bottom above the
 ///   camera. NaN where the path never is above or below the box.
@@ -29,6 +29,8 @@ const POINTS_PER_INTERVAL: usize = 8;
 /// - `Behind`, `Front`: the least angle about the object's center between the camera and the middle of its back or front
 ///   ([`SubjectSide`]), over the points of the path next to the box and outside it.
 /// - `From`: distance of the first camera from the box, which counts as reaching up to eye height, over the scene size.
+/// - `Past`: level distance of the path from the object's center where it is abeam, over the scene size; larger where the path ends
+///   before it or begins behind it.
 /// - `Along`: share of the box's longer horizontal axis that the path beside the box covers.
 pub(super) fn passage(world: &World, how: Pass, id: u32, states: &[CameraState]) -> Option<(f64, (f64, f64))> {
     let subject = world.subject(id)?;
@@ -40,8 +42,25 @@ pub(super) fn passage(world: &World, how: Pass, id: u32, states: &[CameraState])
         Pass::Front => Some((side_deg(world, subject, &path, SubjectSide::FromFront), (0.0, SIDE_DEG))),
         Pass::Along => Some((covered(world, subject, &path), (ALONG_FRAC, f64::INFINITY))),
         Pass::From => Some((apart_frac(world, subject, states[0].pose.position), (0.0, STANDING_FRAC))),
-        Pass::Past | Pass::Between | Pass::Over => None,
+        Pass::Past => Some((past_frac(world, subject, states), (0.0, BESIDE_FRAC))),
+        Pass::Between | Pass::Over => None,
     }
+}
+
+/// Weight of what a path lacks to have an object abeam, over that of its distance there: a way that ends before a thing is not one past it.
+const LACKING: f64 = 6.0;
+
+/// Level distance of a path from an object at the point that has it abeam, over the scene size; farther by what the path lacks to have
+/// it abeam.
+fn past_frac(world: &World, subject: &Subject, states: &[CameraState]) -> f64 {
+    let level = |state: &CameraState| world.frame.horizontal(subject.center - state.pose.position);
+    let (first, last) = (level(&states[0]), level(&states[states.len() - 1]));
+    let Some(way) = (first - last).try_normalize() else { return f64::INFINITY };
+    // Before the way sets out the object lies ahead, at its end abeam or behind.
+    let lacking = (-first.dot(way)).max(last.dot(way)).max(0.0);
+    let abeam = states.iter().min_by(|a, b| level(a).dot(way).abs().total_cmp(&level(b).dot(way).abs()));
+    let beside = abeam.map_or(0.0, |state| level(state).reject_from(way).length());
+    (beside + LACKING * lacking) / world.bounds.size()
 }
 
 /// Distance of a point from an object's box, which counts as reaching up to eye height, over the scene size.

@@ -422,7 +422,8 @@ pub struct Via {
 #[derive(strum::VariantArray, strum::VariantNames)]
 #[strum(serialize_all = "kebab-case")]
 pub enum Pass {
-    /// Beside it, with it in view.
+    /// Beside it, with it in view. A way to something else (`Follow`, `FlyThrough`) has it abeam at a level distance of at most 30 % of the
+    /// scene size, and 40 % of it in the picture at some moment.
     Past,
     /// Between two objects.
     Between,

@@ -102,7 +102,8 @@ fn passage_wording(how: Pass, name: &str) -> String {
         Pass::Through => "distance from its center over its extent at most 1",
         Pass::Behind | Pass::Front => "angle from that side at most 60 degrees",
         Pass::Along => "covered share of its length at least 0.80",
-        Pass::Past | Pass::Between | Pass::Over | Pass::From => "",
+        Pass::Past => "distance from it where it is abeam, over the scene size, at most 0.30",
+        Pass::Between | Pass::Over | Pass::From => "",
     };
     let way = match how {
         Pass::Front => "in front of",

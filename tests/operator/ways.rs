@@ -6,6 +6,7 @@ use cinesplat::trajectory::{CameraState, Move, ShotAngle, ShotSize};
 use glam::DVec3;
 
 use super::composition::in_frame;
+use super::viewpoints::generated;
 use super::{ROOM, film, room, solved, wall, world};
 
 const BOX_1: DVec3 = DVec3::new(1.2, 0.6, 0.9);
@@ -147,4 +148,42 @@ fn a_lens_narrows_on_the_thing_that_it_is_to_narrow_on() {
     let frames = film(&solved(&world(), vec![step(Move::Static, 1), step(Move::ZoomIn, 2)]));
     let last = &frames[frames.len() - 1];
     assert!(in_frame(last, BOX_2).abs().max_element() < 0.2, "{}", in_frame(last, BOX_2));
+}
+
+#[test]
+fn a_way_past_a_thing_shows_it_and_goes_by_it() {
+    let step = Step { end: about(1), via: Some(past(Pass::Past, 2)), ..Step::of(Move::FlyThrough) };
+    let frames = film(&solved(&world(), vec![step]));
+    let (first, last) = (&frames[0], &frames[frames.len() - 1]);
+    let shows = |state: &CameraState| in_frame(state, BOX_2).abs().max_element() < 0.5;
+    assert!(frames.iter().any(shows), "box 2 is never in the picture");
+    let way = (last.pose.position - first.pose.position).reject_from(DVec3::Y).normalize();
+    let ahead = |state: &CameraState| (BOX_2 - state.pose.position).dot(way);
+    assert!(ahead(first) > 0.0 && ahead(last) < 0.3, "box 2 lies {} and then {} ahead", ahead(first), ahead(last));
+    let at = in_frame(last, BOX_1);
+    assert!(at.abs().max_element() < 0.2, "ends on box 1: {at}");
+}
+
+#[test]
+fn a_worm_creeps_over_a_rug_and_not_above_it() {
+    // Room 1279 has a rug (7) under its coffee table (8).
+    let (opened, world) = generated(1279, &[7, 8]);
+    let table = opened.objects.unwrap().objects.iter().find(|object| object.id == 8).unwrap().center;
+    let end = Framing { angle: Some(ShotAngle::Worm), ..about(8) };
+    let step = Step { end, via: Some(past(Pass::Over, 7)), ..Step::of(Move::PushIn) };
+    let frames = film(&solved(&world, vec![step]));
+    let highest = frames.iter().map(|state| state.pose.position.y).fold(0.0, f64::max);
+    assert!(highest < 0.6, "the camera is {highest} above the floor");
+    let [from, to] = [&frames[0], &frames[frames.len() - 1]].map(|state| state.pose.position.distance(table));
+    assert!(to < 0.8 * from, "goes from {from} to {to}");
+}
+
+#[test]
+fn a_pull_out_to_a_thing_and_what_it_stands_beside_ends_on_the_middle_of_both() {
+    let start = Framing { size: Some(ShotSize::CloseUp), ..about(2) };
+    let end = Framing { subjects: vec![2, 1], whole: true, ..Framing::default() };
+    let frames = film(&solved(&world(), vec![Step { start, end, ..Step::of(Move::PullOut) }]));
+    let last = &frames[frames.len() - 1];
+    let [one, other] = [BOX_1, BOX_2].map(|center| in_frame(last, center));
+    assert!((one.x + other.x).abs() / 2.0 < 0.15, "box 1 at {one}, box 2 at {other}");
 }

@@ -77,8 +77,7 @@ impl Args {
                 let reading = read(&interpreter, sentence)?;
                 let program = &reading.direction.program;
                 let is_right = is_right(&sentence.steps, &program.steps);
-                let has_warning = reading.problems.iter().any(|problem| problem.kind == ProblemKind::NotUnderstood);
-                counts.add(is_right, has_warning);
+                counts.add(is_right, &reading);
                 if !is_right && self.misses {
                     let read = program_to_notation(program);
                     let Sentence { id, prompt, means, .. } = sentence;
@@ -103,7 +102,8 @@ struct Counts {
 }
 
 impl Counts {
-    fn add(&mut self, is_right: bool, has_warning: bool) {
+    fn add(&mut self, is_right: bool, reading: &Reading) {
+        let has_warning = reading.problems.iter().any(|problem| problem.kind == ProblemKind::NotUnderstood);
         self.read[usize::from(is_right)] += 1;
         self.with_warning[usize::from(is_right)] += usize::from(has_warning);
     }

@@ -18,6 +18,7 @@ use flanks::{flanking, of_size};
 use placing::{placed_behind, placed_later, placed_with};
 use relations::{inner_place, relation_of, says_corner, says_floor, says_way};
 
+use crate::contained::is_canvas_on_easel;
 use crate::explained::{content, head, is_number, label, said};
 use crate::hung;
 use crate::names::FoundMention;
@@ -45,7 +46,7 @@ pub(crate) fn point_by_places(
         nth += 1;
         let mention = &mention.mention;
         let words = said(prompt, mention);
-        if mention.ids.is_empty() || is_number(words) {
+        if mention.ids.is_empty() || is_number(words) || is_canvas_on_easel(words, objects, &mention.ids) {
             continue;
         }
         // `The one by the door` is of the kind of which several were named last.

@@ -46,6 +46,29 @@ pub(crate) fn drop_camera_heights(linked: &Linked, direction: &mut Direction) {
     }
 }
 
+/// Takes a clause that compares the camera's height for the angle of the move before it: `orbit the table, higher than the armchairs and
+/// looking down at it`, of which the network makes a rise.
+pub(crate) fn join_compared_heights(linked: &Linked, direction: &mut Direction) {
+    direction.join_pairs(|before, step| {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let mut said =
+            words.iter().copied().skip_while(|word| matches!(*word, "," | "and" | "a" | "bit" | "little" | "slightly"));
+        let angle = match (said.next()?, said.next()?) {
+            ("higher", "than") => ShotAngle::High,
+            ("lower", "than") => ShotAngle::Low,
+            _ => return None,
+        };
+        let rises = matches!(
+            step.movement,
+            Move::CraneUp | Move::CraneDown | Move::PedestalUp | Move::PedestalDown | Move::Static | Move::Follow
+        );
+        let is_bare = step.duration_secs.is_none() && step.amount.is_none() && step.with.is_empty() && !step.cut;
+        let keeps = before.end.angle.or(Some(angle));
+        let end = Framing { angle: keeps, ..before.end.clone() };
+        (rises && is_bare).then(|| Step { end, words: before.joint_words(step), ..before.clone() })
+    });
+}
+
 /// Takes what the words only compare a height with for no subject: `vase height, push in on the sofa`, `dropping to about shelf height`.
 pub(crate) fn drop_height_subjects(linked: &Linked, direction: &mut Direction) {
     let words = linked.texts_in([0, usize::MAX]);
@@ -207,6 +230,21 @@ mod tests {
     use super::super::fixture::{about, direction, linked};
     use super::*;
     use cinesplat_language::Quantity;
+
+    #[test]
+    fn a_height_that_is_compared_is_the_angle_of_the_move_before() {
+        let read = |text: &str| {
+            let at = text.find(" ,").unwrap();
+            let steps = vec![about(Move::OrbitRight, &[5], [0, at]), about(Move::CraneUp, &[7], [at + 1, text.len()])];
+            let mut direction = direction(steps);
+            join_compared_heights(&linked(text), &mut direction);
+            let steps = direction.program.steps;
+            (steps.len(), steps[0].end.angle, steps[0].end.subjects.clone())
+        };
+        let high = (1, Some(ShotAngle::High), vec![5]);
+        assert_eq!(read("orbit <obj-0> , higher than <obj-1> and looking down at it"), high);
+        assert_eq!(read("orbit <obj-0> , then higher up than <obj-1>").0, 2);
+    }
 
     #[test]
     fn what_a_height_is_compared_with_is_no_subject() {

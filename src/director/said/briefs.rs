@@ -108,7 +108,12 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
     if !missing.is_empty() && subjects.is_empty() && !has(PLACES) {
         return;
     }
-    let of_place = has(PLACES) && (subjects.is_empty() || has(SPACES));
+    // `Lots of space around it` is no place.
+    let is_air = |at: usize| {
+        matches!(words[at], "space" | "room") && words.get(at + 1).is_some_and(|word| is_listed(AROUND, word))
+    };
+    let has_place = |list: &str| (0..words.len()).any(|at| is_listed(list, words[at]) && !is_air(at));
+    let of_place = has_place(PLACES) && (subjects.is_empty() || has_place(SPACES));
     let mut steps = match seen_from(linked, &words, &subjects) {
         Some(place) => vec![Step { via: Some(Via { how: Pass::From, objects: place }), ..Step::look_around() }],
         None if of_place || subjects.is_empty() => vec![Step::look_around()],
@@ -129,6 +134,9 @@ pub(crate) fn film_briefs(linked: &Linked, objects: &[Object], direction: &mut D
     }
     direction.replace_steps(steps);
 }
+
+/// Words behind `space` that is left about a thing.
+const AROUND: &str = "around above beside behind below beneath to for left";
 
 /// Words of a mood, besides those of a calm film.
 const MOODS: &str = "romantic romance moody nostalgic nostalgia melancholy melancholic mysterious mystery eerie spooky tense tension \

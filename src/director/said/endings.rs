@@ -43,6 +43,21 @@ pub(crate) fn include_named(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Ends wide on the room where the words end on a wide view, of which the network makes a way in: `.. and end on a wide view that makes you
+/// want to move in`.
+pub(crate) fn end_on_wide(linked: &Linked, steps: &mut [Step]) {
+    let num = steps.len();
+    let Some(step) = steps.last_mut().filter(|_| num > 1) else { return };
+    let words = linked.texts_in(step.words.unwrap_or_default());
+    let is_wide = matches!(step.end.size, Some(ShotSize::Long | ShotSize::ExtremeLong));
+    let says = words.windows(2).any(|pair| matches!(pair, ["wide", "view" | "shot" | "picture" | "frame"]));
+    let plain = Framing { size: step.end.size, ..Framing::default() };
+    let is_way_in = matches!(step.movement, Move::PushIn | Move::Follow) && step.start == Framing::default();
+    if is_wide && says && is_way_in && step.end == plain && step.via.is_none() && step.amount.is_none() {
+        (step.movement, step.end) = (Move::PullOut, Framing::default());
+    }
+}
+
 /// Shows what a step that widens leaves together with what is seen then, too: `back away from the armchair until I can see also the
 /// curtain and the sideboard`.
 pub(crate) fn show_also(linked: &Linked, steps: &mut [Step]) {
@@ -321,6 +336,21 @@ pub(crate) fn keep_shown(linked: &Linked, steps: &mut [Step]) {
 mod tests {
     use super::super::fixture::linked;
     use super::*;
+
+    #[test]
+    fn a_film_that_ends_on_a_wide_view_goes_back() {
+        let last = |text: &str, size: ShotSize| {
+            let at = text.find(" ,").unwrap();
+            let end = Framing { size: Some(size), ..Framing::default() };
+            let words = Some([at + 1, text.len()]);
+            let mut steps = vec![Step::of(Move::Follow), Step { end, words, ..Step::of(Move::PushIn) }];
+            end_on_wide(&linked(text), &mut steps);
+            steps[1].movement
+        };
+        assert_eq!(last("show <obj-0> , and end on a wide view of it all", ShotSize::Long), Move::PullOut);
+        assert_eq!(last("show <obj-0> , and go in on a wide lens", ShotSize::Long), Move::PushIn);
+        assert_eq!(last("show <obj-0> , and end on a wide shot", ShotSize::CloseUp), Move::PushIn);
+    }
 
     #[test]
     fn who_notices_a_whole_room_looks_out_on_it() {

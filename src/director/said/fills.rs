@@ -25,6 +25,28 @@ pub(crate) fn fill_with_only(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Phrases of a thing that just fits into the frame.
+const FITS: [[&str; 3]; 4] =
+    [["top", "to", "bottom"], ["head", "to", "toe"], ["edge", "to", "edge"], ["bottom", "to", "top"]];
+/// Height of what fills the frame from top to bottom, over the frame's.
+const TOP_TO_BOTTOM: f64 = 0.95;
+
+/// Ends with all of the subject where the words fill the frame with it from top to bottom, in place of a close-up that cuts it.
+pub(crate) fn fill_to_edges(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| nears(step.movement)) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let fits = |at: usize| FITS.iter().any(|phrase| words[at..].starts_with(phrase));
+        let fills = |at: usize| {
+            words[..at].iter().rev().take(5).any(|word| matches!(*word, "fill" | "fills" | "filling" | "filled"))
+        };
+        let is_close = step.end.size.is_none_or(|size| matches!(size, ShotSize::CloseUp | ShotSize::ExtremeCloseUp));
+        let is_open = step.end.height_frac.is_none_or(|frac| frac >= 1.0) && step.end.subjects.len() == 1;
+        if is_close && is_open && (0..words.len()).any(|at| fits(at) && fills(at)) {
+            (step.end.size, step.end.height_frac) = (None, Some(TOP_TO_BOTTOM));
+        }
+    }
+}
+
 /// Words by which a picture shows hardly anything else, behind `the only thing`.
 const SEES: [&str; 8] = ["see", "look", "notice", "sees", "visible", "seen", "watch", "there"];
 
@@ -180,14 +202,25 @@ fn show_part(framing: &mut Framing, part: PartPlace, fills: bool) {
         framing.part = end;
     }
     let is_free = framing.size.is_none() && framing.height_frac.is_none() && !framing.whole;
-    match () {
-        () if fills && part.is_small && framing.size.is_none_or(|size| size == ShotSize::CloseUp) => {
+    let is_open = framing.height_frac.is_none() && framing.size.is_none_or(|size| size == ShotSize::CloseUp);
+    match part.heights_percent {
+        Some([low, high]) if fills && is_open && !part.is_small => {
+            // The part is a share of the thing, whose height the size is of.
+            let share = f64::from(high.saturating_sub(low).max(1)) / 100.0;
+            (framing.part, framing.size) = (end, None);
+            framing.height_frac = Some((FILLED / share).min(MOST_FILLED));
+        }
+        _ if fills && part.is_small && framing.size.is_none_or(|size| size == ShotSize::CloseUp) => {
             framing.size = Some(ShotSize::ExtremeCloseUp);
         }
-        () if is_free && part.is_small => framing.size = Some(ShotSize::CloseUp),
-        () => {}
+        _ if is_free && part.is_small => framing.size = Some(ShotSize::CloseUp),
+        _ => {}
     }
 }
+
+/// Height of a part that fills the frame, over that of the frame, whose middle it misses; and the largest height of its thing for that.
+const FILLED: f64 = 0.75;
+const MOST_FILLED: f64 = 2.2;
 
 /// Words of a thing that is seen completely, and of what it is seen in.
 const COMPLETELY: [&str; 6] = ["completely", "fully", "entirely", "wholly", "totally", "all"];
@@ -231,6 +264,19 @@ pub(crate) fn rise_by_own_height(linked: &Linked, steps: &mut [Step]) {
 mod tests {
     use super::super::fixture::{about, linked};
     use super::*;
+
+    #[test]
+    fn what_fills_the_frame_from_top_to_bottom_is_not_cut() {
+        let frac = |text: &str| {
+            let mut step = about(Move::PushIn, &[5], [0, text.len()]);
+            step.end.size = Some(ShotSize::CloseUp);
+            let mut steps = [step];
+            fill_to_edges(&linked(text), &mut steps);
+            (steps[0].end.size, steps[0].end.height_frac)
+        };
+        assert_eq!(frac("push in until <obj-0> fills the frame top to bottom"), (None, Some(TOP_TO_BOTTOM)));
+        assert_eq!(frac("push in until <obj-0> fills the frame"), (Some(ShotSize::CloseUp), None));
+    }
 
     #[test]
     fn what_is_completely_visible_is_whole() {

@@ -2,7 +2,9 @@
 
 use cinesplat_language::{Linked, is_listed};
 use cinesplat_operator::{Framing, Pass, Step, Via};
-use cinesplat_trajectory::Move;
+use cinesplat_trajectory::{Move, ShotSize};
+
+use crate::direction::Direction;
 
 /// Words before what goes on, and what goes on.
 const BEFORE: &str = "and then , ; to";
@@ -118,6 +120,30 @@ pub(crate) fn join_arrivals(linked: &Linked, steps: &mut Vec<Step>) {
     }
 }
 
+/// Ends a move on the picture that its words finish on: `crane up and back over the desk and finish on a high wide shot of the desk with the
+/// chair`, of which the network makes a way of its own.
+pub(crate) fn finish_on_picture(linked: &Linked, direction: &mut Direction) {
+    direction.join_pairs(|first, second| {
+        let ([_, to], [_, end]) = (first.words?, second.words?);
+        let words = linked.texts_in([to, end]);
+        let lands = words.iter().find(|word| !is_listed(BEFORE, word)).is_some_and(|word| is_listed(LANDS, word));
+        let opens = matches!(first.movement, Move::PullOut | Move::ZoomOut | Move::CraneUp | Move::PedestalUp);
+        let is_wide = second.end.whole
+            || matches!(second.end.size, Some(ShotSize::MediumLong | ShotSize::Long | ShotSize::ExtremeLong));
+        let shows = !second.end.subjects.is_empty()
+            && first.end.subjects.iter().all(|id| second.end.subjects.contains(id))
+            && first.end.size.is_none();
+        let end = Framing { angle: second.end.angle.or(first.end.angle), ..second.end.clone() };
+        let plain = Step { words: second.words, end: second.end.clone(), ..Step::of(second.movement) };
+        let is_plain = *second == plain && matches!(second.movement, Move::Follow | Move::Static);
+        (lands && opens && is_wide && shows && is_plain && !first.returns).then(|| Step {
+            end,
+            words: first.joint_words(second),
+            ..first.clone()
+        })
+    });
+}
+
 /// Drops steps of which the words are but a mark and that only repeat the step before, or rest.
 pub(crate) fn drop_wordless(linked: &Linked, steps: &mut Vec<Step>) {
     let mut nth = 1;
@@ -149,7 +175,7 @@ fn goes_on(words: &[&str]) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::super::fixture::{about, linked};
+    use super::super::fixture::{about, direction, linked};
     use super::*;
 
     fn second(first: Move, text: &str) -> Move {
@@ -157,6 +183,23 @@ mod tests {
         let mut steps = [about(first, &[5], [0, at]), about(Move::Follow, &[7], [at + 1, text.len()])];
         go_on(&linked(text), &mut steps);
         steps[1].movement
+    }
+
+    #[test]
+    fn a_rise_that_finishes_on_a_wide_shot_is_one_move() {
+        let read = |text: &str, movement: Move| {
+            let at = text.find(" and").unwrap();
+            let mut last = about(Move::Follow, &[5, 7], [at + 4, text.len()]);
+            last.end.whole = true;
+            let mut direction = direction(vec![about(movement, &[5], [0, at]), last]);
+            finish_on_picture(&linked(text), &mut direction);
+            let steps = direction.program.steps;
+            (steps.len(), steps[0].end.subjects.clone())
+        };
+        let text = "crane up over <obj-0> and finish on a wide shot of <obj-0> with <obj-1>";
+        assert_eq!(read(text, Move::CraneUp), (1, vec![5, 7]));
+        assert_eq!(read(text, Move::PushIn).0, 2, "a way in ends nearer");
+        assert_eq!(read("crane up over <obj-0> and walk on to <obj-0> and <obj-1>", Move::CraneUp).0, 2);
     }
 
     #[test]

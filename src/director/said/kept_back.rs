@@ -1,7 +1,7 @@
 //! What a film keeps for its end: `let us find the guitar last`, `close along the top, never the whole thing until the last moments`.
 
-use cinesplat_language::{Linked, is_listed};
-use cinesplat_operator::{Framing, Step};
+use cinesplat_language::{Linked, add_ids, is_listed};
+use cinesplat_operator::{Framing, Pass, Step};
 use cinesplat_trajectory::{Move, ShotSize};
 
 use super::directions::is_form;
@@ -21,6 +21,62 @@ const AROUND: usize = 8;
 pub(crate) fn keep_for_end(linked: &Linked, direction: &mut Direction) {
     find_last(linked, direction);
     show_whole_last(linked, direction);
+    widen_last(linked, direction);
+}
+
+/// Goes back from a detail to all of a thing, where the one step goes the other way: `first a detail and only later the whole of it`.
+fn widen_last(linked: &Linked, direction: &mut Direction) {
+    let [step] = &mut direction.program.steps[..] else { return };
+    let words = linked.texts_in([0, usize::MAX]);
+    let nears = matches!(step.movement, Move::PushIn | Move::Follow | Move::ZoomIn | Move::Static | Move::Reveal);
+    let mut subjects = step.start.subjects.clone();
+    add_ids(&mut subjects, &step.end.subjects);
+    let is_of_one = subjects.len() == 1 && step.via.is_none() && step.with.is_empty();
+    if !(nears && is_of_one && ends_on_whole(&words)) {
+        return;
+    }
+    let size = step.start.size.or(Some(ShotSize::CloseUp));
+    step.movement = Move::PullOut;
+    step.start = Framing { subjects: subjects.clone(), size, ..Framing::default() };
+    step.end = Framing { subjects, whole: true, ..Framing::default() };
+    step.amount = None;
+}
+
+/// Whether words show a detail first and all of the thing later.
+fn ends_on_whole(words: &[&str]) -> bool {
+    let detail = words.iter().position(|word| is_listed("detail details fragment glimpse macro", word));
+    let Some(detail) = detail else { return false };
+    let is_first = words[..detail]
+        .iter()
+        .rev()
+        .take(AROUND)
+        .any(|word| is_listed("first start starting begin beginning from", word));
+    let rest = &words[detail + 1..];
+    let whole = rest.iter().position(|word| is_listed("whole entire complete full all everything", word));
+    let is_later = |whole: usize| {
+        rest[..whole]
+            .iter()
+            .rev()
+            .take(AROUND)
+            .any(|word| is_listed("later then finally last end only until till", word))
+    };
+    is_first && whole.is_some_and(is_later)
+}
+
+/// Reveals from behind a thing what the words bring out `from behind` it.
+pub(crate) fn reveal_from_behind(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement == Move::Reveal) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let Some(via) = step.via.as_mut().filter(|via| via.how == Pass::Past) else { continue };
+        let is_cover = |word: &&str| {
+            linked.slot_at(word).is_some_and(|id| linked.expanded(&[id]) == linked.expanded(&via.objects))
+        };
+        let comes_out =
+            |at: usize| words[at..].starts_with(&["from", "behind"]) && words[at..].get(2).is_some_and(is_cover);
+        if (0..words.len()).any(comes_out) {
+            via.how = Pass::Behind;
+        }
+    }
 }
 
 /// Begins where the one thing that is found last is not seen.
@@ -80,6 +136,7 @@ fn keeps_whole_back(words: &[&str]) -> bool {
 mod tests {
     use super::*;
     use crate::said::fixture::{about, direction, linked};
+    use cinesplat_operator::Via;
 
     fn moves(text: &str, movement: Move) -> Vec<Move> {
         let mut direction = direction(vec![about(movement, &[5], [0, text.len()])]);
@@ -93,6 +150,27 @@ mod tests {
         assert_eq!(moves("drift and discover <obj-0> only at last", Move::PushIn), [Move::Reveal]);
         assert_eq!(moves("drift over to <obj-0> at last", Move::Follow), [Move::Follow]);
         assert_eq!(moves("find <obj-0> . the last one on the left", Move::Follow), [Move::Follow]);
+    }
+
+    #[test]
+    fn what_comes_out_from_behind_a_thing_is_hidden_by_it() {
+        let how = |text: &str| {
+            let mut step = about(Move::Reveal, &[5], [0, text.len()]);
+            step.via = Some(Via { how: Pass::Past, objects: vec![7] });
+            let mut steps = [step];
+            reveal_from_behind(&linked(text), &mut steps);
+            steps[0].via.as_ref().map(|via| via.how)
+        };
+        assert_eq!(how("reveal <obj-0> from behind <obj-1>"), Some(Pass::Behind));
+        assert_eq!(how("reveal <obj-0> past <obj-1>"), Some(Pass::Past));
+    }
+
+    #[test]
+    fn a_detail_comes_before_all_of_it() {
+        let said = "come at <obj-0> like a relic , first a detail and only later the whole of it";
+        assert_eq!(moves(said, Move::PushIn), [Move::PullOut]);
+        assert_eq!(moves("first the whole of <obj-0> , then a detail of it", Move::PushIn), [Move::PushIn]);
+        assert_eq!(moves("show a detail of <obj-0>", Move::Static), [Move::Static]);
     }
 
     #[test]

@@ -29,6 +29,7 @@ mod goes_on;
 mod headlines;
 mod heights;
 mod joined_moves;
+mod kept_aims;
 mod kept_back;
 mod lengths;
 mod levels;
@@ -155,6 +156,7 @@ pub(crate) fn take_said(linked: &Linked, senses: &[Senses], direction: &mut Dire
     let steps = &mut direction.program.steps;
     places::rise_by_lengths(linked, steps);
     asides::drop_camera_heights(linked, direction);
+    asides::join_compared_heights(linked, direction);
     asides::drop_lenses(linked, direction);
     asides::drop_height_subjects(linked, direction);
     asides::drop_light(linked, direction);
@@ -246,8 +248,10 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     fixed::stay_put(linked, &mut direction.program);
     fixed::turn_in_place(linked, &mut direction.program.steps);
     endings::stop_short(linked, &mut direction.program.steps);
+    endings::end_on_wide(linked, &mut direction.program.steps);
     endings::keep_shown(linked, &mut direction.program.steps);
     fills::fill_with_only(linked, &mut direction.program.steps);
+    fills::fill_to_edges(linked, &mut direction.program.steps);
     fills::close_on_only(linked, &mut direction.program.steps);
     fills::close_on_parts(linked, &mut direction.program.steps);
     fills::end_on_parts(linked, &mut direction.program.steps);
@@ -260,15 +264,20 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     between_them::pass_between_them(linked, &mut direction.program.steps);
     goes_on::drop_wordless(linked, &mut direction.program.steps);
     goes_on::join_arrivals(linked, &mut direction.program.steps);
+    goes_on::finish_on_picture(linked, direction);
     stands::stand_at_opening(linked, &mut direction.program.steps);
     stands::stand_where_wide(linked, &mut direction.program.steps);
     stands::stand_at_side(linked, &mut direction.program.steps);
+    stands::begin_at_side(linked, &mut direction.program.steps);
     stands::see_from_own_end(linked, &mut direction.program.steps);
     stands::open_on_sides(linked, &mut direction.program.steps);
     postures::stand_low(linked, direction);
     postures::stay_up_and_down(linked, &mut direction.program.steps);
     places::crane_from_above(&mut direction.program.steps);
     postures::rise_from_floor(linked, &mut direction.program.steps);
+    kept_aims::stay_aimed(linked, &mut direction.program.steps);
+    kept_aims::slide_straight(linked, &mut direction.program.steps);
+    kept_back::reveal_from_behind(linked, &mut direction.program.steps);
     heights::begin_at_height(linked, &mut direction.program.steps);
     heights::hold_height(linked, direction);
 }

@@ -89,6 +89,24 @@ pub(crate) fn stand_at_side(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Begins a way in a picture from the side of the room where a thing stands: `start wide from the fireplace side of the room, glide to the
+/// bottle` begins with no picture of the fireplace.
+pub(crate) fn begin_at_side(linked: &Linked, steps: &mut [Step]) {
+    for step in steps.iter_mut().filter(|step| step.movement != Move::Static) {
+        let words = linked.texts_in(step.words.unwrap_or_default());
+        let side_at = |at: usize| match words.get(at..at + 4)? {
+            ["from", "the", thing, "side" | "end"] => Some(linked.expanded(&[linked.slot_at(thing)?])),
+            _ => None,
+        };
+        let Some(place) = (0..words.len()).find_map(side_at) else { continue };
+        let shows = step.start.subjects == place && step.end.subjects != place;
+        if shows && step.via.as_ref().is_none_or(|via| via.how == Pass::Past) {
+            step.start = Framing::default();
+            step.via = Some(Via { how: Pass::From, objects: place });
+        }
+    }
+}
+
 /// Sees a thing from the side of it at which the words stand: `a wide shot of the bed from the foot end` reads `.. from the front of
 /// the bed`.
 pub(crate) fn see_from_own_end(linked: &Linked, steps: &mut [Step]) {
@@ -172,6 +190,19 @@ fn side_of(linked: &Linked, words: &[&str]) -> Option<(SubjectSide, u32, usize)>
 mod tests {
     use super::super::fixture::{about, linked};
     use super::*;
+
+    #[test]
+    fn a_way_from_a_side_of_the_room_shows_nothing_of_it() {
+        let first = |text: &str| {
+            let mut step = about(Move::PushIn, &[7], [0, text.len()]);
+            step.start.subjects = vec![5];
+            begin_at_side(&linked(text), std::slice::from_mut(&mut step));
+            (step.start.subjects, step.via)
+        };
+        let from = Some(Via { how: Pass::From, objects: vec![5] });
+        assert_eq!(first("start wide from the <obj-0> side of the room , glide on to <obj-1>"), (Vec::new(), from));
+        assert_eq!(first("start on <obj-0> , glide on to <obj-1>"), (vec![5], None));
+    }
 
     #[test]
     fn a_wide_shot_of_the_room_from_a_door_stands_there() {

@@ -280,7 +280,7 @@ fn things_on(
         .flat_map(|(a, b)| heights.map(|height| at(subject.center + long * *a + short * (depth * *b), height)));
     let (aim, corners) = (at(subject.center, heights[0].midpoint(heights[1])), corners.collect::<Vec<_>>());
     let radius = corners.iter().map(|corner| corner.distance(aim)).fold(0.0, f64::max);
-    Target { aim, corners, radius, ..target }
+    Target { aim, sized_by: corners.clone(), corners, radius, ..target }
 }
 
 /// Starts behind an object that hides the subject and slides out from behind it, aimed at the subject. `None` where the
@@ -380,7 +380,7 @@ fn filled(context: &StepContext, target: &Target, view: &CameraState) -> CameraS
         Some(Fill::Height(wanted) | Fill::Fit(wanted)) => wanted,
         None => lerp((0.3, 0.6), context.parameters[2]),
     };
-    let now = extent_frac(context.world, view, &target.corners).y;
+    let now = extent_frac(context.world, view, &target.sized_by).y;
     let tan = (view.fov_y_rad / 2.0).tan() * now / wanted;
     with_fov(view, (2.0 * tan.atan()).clamp(12.0_f64.to_radians(), 70.0_f64.to_radians()))
 }

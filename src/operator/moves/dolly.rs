@@ -166,8 +166,7 @@ const NUM_BACKING: i32 = 5;
 fn takes_in<'a>(context: &'a StepContext, inward: bool) -> Option<&'a Target> {
     let end = context.end.as_ref().filter(|_| !inward && context.step.end.whole)?;
     let start = context.start.as_ref();
-    let is_other =
-        start.is_some_and(|start| start.ids.first() != end.ids.first()) || start.is_none() && context.before.is_some();
+    let is_other = start.is_some_and(|start| start.ids != end.ids) || start.is_none() && context.before.is_some();
     let left = start.or(context.earlier.as_ref()).and_then(|left| left.ids.first());
     let is_with_others = end.ids.len() > 1;
     (is_other && left.is_none_or(|left| is_with_others || !end.ids.contains(left))).then_some(end)

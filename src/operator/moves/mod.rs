@@ -18,6 +18,7 @@ mod nearing;
 mod over_shoulder;
 mod overlook;
 mod passes;
+mod passing_by;
 mod paths;
 mod rack_focus;
 mod requirements;
@@ -123,7 +124,7 @@ fn family(context: &StepContext) -> Vec<MotionSegment> {
         Move::ZoomIn | Move::ZoomOut => lens::zoom(context),
         Move::DollyZoomIn | Move::DollyZoomOut => lens::dolly_zoom(context),
         Move::RackFocus => rack_focus::rack_focus(context),
-        Move::Follow | Move::FlyThrough => paths::follow(context),
+        Move::Follow | Move::FlyThrough => passing_by::passing_by(context).unwrap_or_else(|| paths::follow(context)),
         Move::Reveal if matches!(how, Some(Pass::Under | Pass::Through)) => passes::passing(context),
         Move::Reveal => paths::reveal(context),
     }

@@ -2,6 +2,7 @@
 //! what is never in view, and what the film must not do.
 
 use super::context::StepContext;
+use super::passing_by::passed_by;
 use super::skim::skims;
 use super::standing::require_shoulder;
 use crate::composition::lens_fov_deg;
@@ -53,6 +54,9 @@ pub(super) fn require(context: &StepContext, segments: &mut [MotionSegment]) {
         let is_part = |via: &Via| via.how == Pass::Along && !step.end.subjects.is_empty() && slides(step.movement);
         add(own, Scope::All, passages(step.via.as_ref().filter(|via| !skims(context) && !is_part(via))));
         add(own, Scope::Any, passed_in_turn(step));
+        let by = passed_by(step);
+        add(own, Scope::All, by.iter().map(|&id| ConstraintKind::Passed(Pass::Past, id)).collect());
+        add(own, Scope::Any, by.iter().map(|&id| ConstraintKind::InFrame(vec![id], PASSED_BY_FRAC)).collect());
         require_shoulder(context, own);
     }
 }
@@ -71,6 +75,9 @@ fn passages(via: Option<&Via>) -> Vec<ConstraintKind> {
     };
     via.objects.iter().map(|&id| ConstraintKind::Passed(how, id)).collect()
 }
+
+/// Share of what a way passes that is in the picture at some moment.
+const PASSED_BY_FRAC: f64 = 0.4;
 
 /// Share of what a turn passes that is in the picture at some moment.
 const PASSED_FRAC: f64 = 0.6;
