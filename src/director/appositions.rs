@@ -6,7 +6,7 @@
 
 use cinesplat_language::{Mention, NamedObject, Word, is_listed, stem, tokenize};
 
-use crate::explained::{content, head, label, replace_mentions, said};
+use crate::explained::{content, drop_mentions, head, is_number, label, replace_mentions, said};
 use crate::heads::before_place;
 use crate::names::FoundMention;
 
@@ -50,7 +50,7 @@ pub(crate) fn drop_contents(prompt: &str, found: &mut Vec<FoundMention>) -> Vec<
             phrases.push([laid.span[0], end]);
         }
     }
-    found.retain(|found| !phrases.iter().any(|[from, to]| (*from..*to).contains(&found.mention.bytes[0])));
+    phrases.iter().for_each(|phrase| drop_mentions(found, *phrase));
     phrases
 }
 
@@ -71,8 +71,7 @@ fn is_named_again(prompt: &str, objects: &[NamedObject], found: &[FoundMention],
     let (thing, name) = (&found[nth - 1].mention, &found[nth].mention);
     let [id] = name.ids[..] else { return false };
     let text = said(prompt, name);
-    let has_number = |text: &str| tokenize(text).iter().any(|word| !word.is_alphabetic());
-    let is_full = label(objects, id).is_some_and(|label| label.eq_ignore_ascii_case(text)) && has_number(text);
+    let is_full = label(objects, id).is_some_and(|label| label.eq_ignore_ascii_case(text)) && is_number(text);
     let kind = head(before_place(said(prompt, thing)));
     let is_kind = kind.is_some_and(|kind| tokenize(text).iter().any(|word| word.stem == kind));
     let between = prompt.get(thing.bytes[1]..name.bytes[0]).unwrap_or_default().trim();
@@ -84,7 +83,7 @@ fn is_named_again(prompt: &str, objects: &[NamedObject], found: &[FoundMention],
     let lists = |text: &str| tokenize(text).iter().all(|word| is_listed(LISTS, &word.text) || !word.is_alphabetic());
     is_full
         && is_kind
-        && !has_number(said(prompt, thing))
+        && !is_number(said(prompt, thing))
         && place.is_some_and(|place| is_place(&place))
         && behind.trim_start().chars().next().is_none_or(|mark| matches!(mark, ',' | '.' | ';' | ')' | ':' | '!' | '?'))
         && next.is_none_or(|between| !lists(between))

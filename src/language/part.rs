@@ -81,6 +81,11 @@ impl Linked {
         self.slot_at(word).is_some_and(|slot| self.expanded(&[slot]).contains(&id))
     }
 
+    /// Whether a word is the placeholder of these objects, and of no others.
+    pub fn stands_for(&self, word: &str, ids: &[u32]) -> bool {
+        self.slot_at(word).is_some_and(|slot| self.expanded(&[slot]) == ids)
+    }
+
     /// Whether a word is the placeholder of a quantity.
     pub fn is_quantity(&self, word: &str) -> bool {
         slot_of(word, QUANTITY).is_some_and(|slot| slot < self.quantities.len())

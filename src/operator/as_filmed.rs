@@ -146,10 +146,7 @@ const FLAT_RADII: f64 = 1.0;
 fn cross_rugs(world: &World, step: &mut Step) {
     let leads = matches!(step.movement, Move::PushIn | Move::Follow | Move::PullOut) && !step.end.subjects.is_empty();
     let is_rug = |id: &u32| {
-        world.subject(*id).is_some_and(|thing| {
-            let top = world.height_above_floor(thing.center) + thing.reach(world.frame.up);
-            top < FLAT_RADII * world.camera_radius
-        })
+        world.subject(*id).is_some_and(|thing| world.top_above_floor(thing) < FLAT_RADII * world.camera_radius)
     };
     let over = step.via.as_ref().filter(|via| matches!(via.how, Pass::Over | Pass::Along));
     if leads && over.is_some_and(|via| via.objects.iter().all(is_rug) && via.objects != step.end.subjects) {
@@ -171,11 +168,7 @@ const CREEPING_RADII: f64 = 2.0;
 /// is seen steeply from below.
 fn creep_along_floor(world: &World, step: &mut Step) {
     let travels = matches!(step.movement, Move::PushIn | Move::Follow | Move::PullOut) && step.via.is_none();
-    let is_low = |id: &u32| {
-        world.subject(*id).is_some_and(|thing| {
-            world.height_above_floor(thing.center) + thing.reach(world.frame.up) < world.eye_height()
-        })
-    };
+    let is_low = |id: &u32| world.subject(*id).is_some_and(|thing| world.top_above_floor(thing) < world.eye_height());
     let subjects = if step.end.subjects.is_empty() { &step.start.subjects } else { &step.end.subjects };
     if !travels || subjects.is_empty() || !subjects.iter().all(is_low) {
         return;

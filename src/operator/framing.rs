@@ -21,9 +21,8 @@ pub(super) struct Target {
     pub(super) center: DVec3,
     /// Corners of all boxes that must fit, world.
     pub(super) corners: Vec<DVec3>,
-    /// The points by which its size in the picture is measured. A stated share of the frame is that of the matter: a bowl does not fill its
-    /// box. The sizes that have names are those of the box, so that a close-up of a thing shows its edges.
-    pub(super) sized_by: Vec<DVec3>,
+    /// Outermost points of the matter in them, where its size is stated as a share of the frame.
+    pub(super) outline: Option<Vec<DVec3>>,
     /// Radius of a sphere about `aim` that contains the corners.
     pub(super) radius: f64,
 }
@@ -37,10 +36,8 @@ impl Target {
         let joint = subjects.len() > if framing.whole { 1 } else { 2 };
         let shown = if joint { &subjects[..] } else { &subjects[..1] };
         let corners: Vec<DVec3> = shown.iter().flat_map(|subject| subject.corners.iter().copied()).collect();
-        let sized_by = match framing.height_frac {
-            Some(_) => shown.iter().flat_map(|subject| subject.outline.iter().copied()).collect(),
-            None => corners.clone(),
-        };
+        let matter = || shown.iter().flat_map(|subject| subject.outline.iter().copied()).collect();
+        let outline = framing.height_frac.map(|_| matter());
         let aim = match framing.place {
             _ if joint => {
                 let hung = subjects.iter().map(|subject| hung_shift(world, subject)).fold(0.0, f64::min);
@@ -54,7 +51,7 @@ impl Target {
             _ => part_point(world, first, framing.part),
         };
         let radius = corners.iter().map(|c| c.distance(aim)).fold(0.0, f64::max);
-        Some(Self { ids: framing.subjects.clone(), aim, center: first.center, corners, sized_by, radius })
+        Some(Self { ids: framing.subjects.clone(), aim, center: first.center, corners, outline, radius })
     }
 
     /// Heights along up of the surface of its first subject on which other things stand, and of the highest of them.
@@ -74,8 +71,20 @@ impl Target {
             )
         };
         let center = bounds.center();
-        let corners: Vec<DVec3> = (0..8).map(corner).collect();
-        Self { ids: Vec::new(), aim: center, center, sized_by: corners.clone(), corners, radius: bounds.size() / 2.0 }
+        Self {
+            ids: Vec::new(),
+            aim: center,
+            center,
+            corners: (0..8).map(corner).collect(),
+            outline: None,
+            radius: bounds.size() / 2.0,
+        }
+    }
+
+    /// The points by which its size in the picture is measured. A stated share of the frame is that of the matter: a bowl does not fill its
+    /// box. The sizes that have names are those of the box, so that a close-up of a thing shows its edges.
+    pub(super) fn sized_by(&self) -> &[DVec3] {
+        self.outline.as_deref().unwrap_or(&self.corners)
     }
 }
 
@@ -242,7 +251,7 @@ impl Fill {
 /// The distance at which a target has the wanted size, seen from a bearing. The projection shrinks with the
 /// distance: 40 bisections find it to 1e-9 of the range.
 pub(super) fn distance_for(world: &World, target: &Target, bearing: Bearing, fill: Fill, fov_y_rad: f64) -> f64 {
-    let reached = |d: f64| fill.reached(world, &view_at(world, target.aim, bearing, d, fov_y_rad), &target.sized_by);
+    let reached = |d: f64| fill.reached(world, &view_at(world, target.aim, bearing, d, fov_y_rad), target.sized_by());
     let (mut near, mut far) = (0.2 * target.radius, 200.0 * target.radius.max(1e-9));
     for _ in 0..40 {
         let middle = (near * far).sqrt();

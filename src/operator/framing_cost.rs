@@ -152,7 +152,7 @@ fn near_room_cost(world: &World, segment: &MotionSegment, states: &[CameraState]
         _ => None,
     });
     let Some(left) = left else { return 0.0 };
-    let size = extent_frac(world, &states[states.len() - 1], &left.sized_by).max_element();
+    let size = extent_frac(world, &states[states.len() - 1], left.sized_by()).max_element();
     NEAR_ROOM_COST * ramp(LEFT_SIZE, size)
 }
 

@@ -217,7 +217,7 @@ fn visible_share(world: &World, id: u32, least: f64, states: &[CameraState], num
 }
 
 fn height(world: &World, state: &CameraState, target: &Target) -> f64 {
-    extent_frac(world, state, &target.sized_by).y
+    extent_frac(world, state, target.sized_by()).y
 }
 
 /// The least share, over the subjects, of corners and points inside the frame.

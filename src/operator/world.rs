@@ -282,6 +282,11 @@ impl World {
         self.frame.height(point) - self.floor_height()
     }
 
+    /// Height of the upper end of a subject's box above the floor.
+    pub(super) fn top_above_floor(&self, subject: &Subject) -> f64 {
+        self.height_above_floor(subject.center) + subject.reach(self.frame.up)
+    }
+
     /// How far a point is below the height of a camera that lies on the floor, over the scene size; 0 above that
     /// height.
     pub(super) fn sunk_frac(&self, point: DVec3) -> f64 {

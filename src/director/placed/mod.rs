@@ -15,7 +15,7 @@ pub(crate) use extent::hangs_over;
 use extent::{Relation, boxes, cornermost, fit, lowest};
 pub(crate) use flanks::{Flank, outermost, told_flank};
 use flanks::{flanking, of_size};
-use placing::{placed_behind, placed_later, placed_with};
+use placing::{placed_behind, placed_later, placed_with, rest_of};
 use relations::{inner_place, relation_of, says_corner, says_floor, says_way};
 
 use crate::contained::is_canvas_on_easel;
@@ -324,14 +324,6 @@ fn kind_of_all(objects: &[NamedObject], ids: &[u32]) -> Vec<u32> {
     let first = kinds.next().flatten();
     let is_one = ids.len() > 1 && first.is_some() && kinds.all(|kind| kind == first);
     if is_one { ids.to_vec() } else { Vec::new() }
-}
-
-/// The only other thing of the kind from which one was told: `the other one`.
-fn rest_of(words: &str, narrowed: Option<&(Vec<u32>, u32)>) -> Option<(Vec<u32>, Vec<u32>)> {
-    let is_other = tokenize(words).iter().all(|word| is_listed("the other one", &word.text));
-    let (alike, one) = narrowed.filter(|_| is_other)?;
-    let others: Vec<u32> = alike.iter().filter(|id| *id != one).copied().collect();
-    matches!(others[..], [_]).then(|| (alike.clone(), others))
 }
 
 #[cfg(test)]

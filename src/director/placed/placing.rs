@@ -47,3 +47,11 @@ pub(super) fn placed_later(
     };
     Some((relation, next.ids.clone()))
 }
+
+/// The only other thing of the kind from which one was told: `the other one`.
+pub(super) fn rest_of(words: &str, narrowed: Option<&(Vec<u32>, u32)>) -> Option<(Vec<u32>, Vec<u32>)> {
+    let is_other = tokenize(words).iter().all(|word| is_listed("the other one", &word.text));
+    let (alike, one) = narrowed.filter(|_| is_other)?;
+    let others: Vec<u32> = alike.iter().filter(|id| *id != one).copied().collect();
+    matches!(others[..], [_]).then(|| (alike.clone(), others))
+}

@@ -59,8 +59,7 @@ fn leave_door(linked: &Linked, objects: &[Object], step: &mut Step) {
     let passes = step.via.as_ref().is_some_and(|via| via.objects.iter().any(|id| !door.contains(id)));
     let ends = !step.end.subjects.is_empty() && !step.end.subjects.iter().any(|id| door.contains(id));
     let words = linked.texts_in(step.words.unwrap_or_default());
-    let Some(at) = words.iter().position(|word| linked.slot_at(word).is_some_and(|id| linked.expanded(&[id]) == *door))
-    else {
+    let Some(at) = words.iter().position(|word| linked.stands_for(word, door)) else {
         return;
     };
     let before = &words[at.saturating_sub(4)..at];
@@ -92,8 +91,7 @@ fn pass_from_door(linked: &Linked, objects: &[Object], direction: &mut Direction
     leave_door(linked, objects, &mut led);
     let on_way = !step.end.subjects.contains(&via.objects[0]) && !step.start.subjects.contains(&via.objects[0]);
     let words = linked.words_in(step.words.unwrap_or_default());
-    let mut named =
-        words.filter(|(word, _)| linked.slot_at(word).is_some_and(|id| linked.expanded(&[id]) == via.objects));
+    let mut named = words.filter(|(word, _)| linked.stands_for(word, &via.objects));
     let Some((_, [_, passed])) = named.next().filter(|_| led != without_passed && on_way) else { return };
     let [from, to] = step.words.unwrap_or_default();
     let secs = step.duration_secs.map(|secs| secs / 2.0);

@@ -47,7 +47,7 @@ pub(crate) fn slide_straight(linked: &Linked, steps: &mut [Step]) {
 
 /// Whether words set out from a thing.
 fn sets_out(linked: &Linked, words: &[&str], ids: &[u32]) -> bool {
-    let is_place = |at: usize| linked.slot_at(words[at]).is_some_and(|id| linked.expanded(&[id]) == ids);
+    let is_place = |at: usize| linked.stands_for(words[at], ids);
     (0..words.len()).any(|at| is_place(at) && words[..at].iter().rev().take(NEAR).any(|word| *word == "from"))
 }
 
@@ -55,7 +55,7 @@ fn sets_out(linked: &Linked, words: &[&str], ids: &[u32]) -> bool {
 fn is_aimed(linked: &Linked, words: &[&str], ids: &[u32]) -> bool {
     (0..words.len()).any(|at| {
         let around = &words[at.saturating_sub(NEAR)..words.len().min(at + 1 + NEAR)];
-        let names = |word: &&str| linked.slot_at(word).is_some_and(|id| linked.expanded(&[id]) == ids);
+        let names = |word: &&str| linked.stands_for(word, ids);
         is_listed(AIMS, words[at]) && around.iter().any(|word| is_listed(LASTS, word)) && around.iter().any(names)
     })
 }

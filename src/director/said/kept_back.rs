@@ -68,9 +68,8 @@ pub(crate) fn reveal_from_behind(linked: &Linked, steps: &mut [Step]) {
     for step in steps.iter_mut().filter(|step| step.movement == Move::Reveal) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let Some(via) = step.via.as_mut().filter(|via| via.how == Pass::Past) else { continue };
-        let is_cover = |word: &&str| {
-            linked.slot_at(word).is_some_and(|id| linked.expanded(&[id]) == linked.expanded(&via.objects))
-        };
+        let cover = linked.expanded(&via.objects);
+        let is_cover = |word: &&str| linked.stands_for(word, &cover);
         let comes_out =
             |at: usize| words[at..].starts_with(&["from", "behind"]) && words[at..].get(2).is_some_and(is_cover);
         if (0..words.len()).any(comes_out) {

@@ -23,7 +23,7 @@ const SIDES: [(&[&str], SubjectSide); 3] = [
 pub(crate) fn go_round_to_sides(linked: &Linked, steps: &mut [Step]) {
     for step in steps {
         let words = linked.texts_in(step.words.unwrap_or_default());
-        let is_own = |word: &str| linked.slot_at(word).is_some_and(|id| linked.expanded(&[id]) == step.end.subjects);
+        let is_own = |word: &str| linked.stands_for(word, &step.end.subjects);
         let circles = step.movement.is_circular();
         if let Some(side) = side_of_end(&words, &is_own).filter(|_| circles && step.amount.is_none()) {
             step.end.side = Some(side);

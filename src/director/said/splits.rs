@@ -295,9 +295,8 @@ fn walked_round(linked: &Linked, step: &Step) -> Option<(Step, Step)> {
     let words = words_of(linked, step);
     let text = |at: usize| words.get(at).map_or("", |(word, _)| *word);
     let texts: Vec<&str> = words.iter().map(|(word, _)| *word).collect();
-    let is_own = |word: &str| {
-        linked.slot_at(word).is_some_and(|id| linked.expanded(&[id]) == linked.expanded(&step.end.subjects))
-    };
+    let own = linked.expanded(&step.end.subjects);
+    let is_own = |word: &str| linked.stands_for(word, &own);
     let around = |at: usize| leads_round(&texts, at, &is_own);
     let is_walk = |at: &usize| {
         let circles = CIRCLES.iter().any(|verb| is_form(text(*at), verb));

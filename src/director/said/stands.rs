@@ -78,10 +78,10 @@ pub(crate) fn stand_at_side(linked: &Linked, steps: &mut [Step]) {
     for step in steps.iter_mut().filter(|step| step.movement == Move::Static) {
         let words = linked.texts_in(step.words.unwrap_or_default());
         let Some(via) = step.via.as_mut().filter(|via| via.how == Pass::Past) else { continue };
+        let place = linked.expanded(&via.objects);
         let leads_from = |at: usize| {
             let next = at + 1 + usize::from(words.get(at + 1) == Some(&"the"));
-            let id = words.get(next).and_then(|word| linked.slot_at(word));
-            words[at] == "from" && id.is_some_and(|id| linked.expanded(&[id]) == linked.expanded(&via.objects))
+            words[at] == "from" && words.get(next).is_some_and(|word| linked.stands_for(word, &place))
         };
         if (0..words.len()).any(leads_from) {
             via.how = Pass::From;

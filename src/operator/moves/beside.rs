@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 use super::context::{NORMAL_LENS_DEG, StepContext, is_stated, require_visible};
-use super::paths::end_view;
+use super::paths::{arriving, end_view};
 use crate::composition::{front_azimuth, lens_fov_deg};
 use crate::constraint::{ConstraintKind, Scope, TravelDirection};
 use crate::framing::{Bearing, Fill, Target, extent_frac, view_at};
@@ -42,12 +42,11 @@ pub(super) fn passing_beside(context: &StepContext) -> Option<Vec<MotionSegment>
     if how == Pass::Along {
         look_along(context, subject, &mut states);
     }
-    let mut segment = context.constrained_at_end(context.constrained_at_start(context.segment(states)));
-    if let Some(end) = &context.end {
-        segment = segment.requiring(Scope::End, ConstraintKind::Centered(end.clone(), 0.15));
-        segment = require_visible(segment, end, Scope::End);
-    }
-    Some(vec![segment])
+    let segment = context.segment(states);
+    Some(vec![match &context.end {
+        Some(end) => arriving(context, segment, None, end),
+        None => context.constrained_at_end(context.constrained_at_start(segment)),
+    }])
 }
 
 /// How far ahead on an object somebody looks who goes along it, over half its length.
@@ -280,7 +279,7 @@ fn things_on(
         .flat_map(|(a, b)| heights.map(|height| at(subject.center + long * *a + short * (depth * *b), height)));
     let (aim, corners) = (at(subject.center, heights[0].midpoint(heights[1])), corners.collect::<Vec<_>>());
     let radius = corners.iter().map(|corner| corner.distance(aim)).fold(0.0, f64::max);
-    Target { aim, sized_by: corners.clone(), corners, radius, ..target }
+    Target { aim, corners, outline: None, radius, ..target }
 }
 
 /// Starts behind an object that hides the subject and slides out from behind it, aimed at the subject. `None` where the
@@ -380,7 +379,7 @@ fn filled(context: &StepContext, target: &Target, view: &CameraState) -> CameraS
         Some(Fill::Height(wanted) | Fill::Fit(wanted)) => wanted,
         None => lerp((0.3, 0.6), context.parameters[2]),
     };
-    let now = extent_frac(context.world, view, &target.sized_by).y;
+    let now = extent_frac(context.world, view, target.sized_by()).y;
     let tan = (view.fov_y_rad / 2.0).tan() * now / wanted;
     with_fov(view, (2.0 * tan.atan()).clamp(12.0_f64.to_radians(), 70.0_f64.to_radians()))
 }

@@ -76,7 +76,7 @@ const TOO_NEAR: f64 = 1.3;
 /// the desk`.
 fn is_among(context: &StepContext, before: &CameraState, target: &Target) -> bool {
     let turned = aimed(context.world, before, target.center);
-    let nears = extent_frac(context.world, &turned, &target.sized_by).max_element() > TOO_NEAR;
+    let nears = extent_frac(context.world, &turned, target.sized_by()).max_element() > TOO_NEAR;
     context.comes_to(target) && nears && !context.forbids_turning() && context.step.start == Framing::default()
 }
 

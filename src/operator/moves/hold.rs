@@ -101,7 +101,7 @@ fn is_free(context: &StepContext, framing: &Framing) -> bool {
 
 /// The view turned so that its subject is on the left or right third, where it fits there.
 fn on_a_third(context: &StepContext, target: &Target, view: CameraState) -> CameraState {
-    if target.ids.is_empty() || extent_frac(context.world, &view, &target.sized_by).x > MAX_THIRD_WIDTH {
+    if target.ids.is_empty() || extent_frac(context.world, &view, target.sized_by()).x > MAX_THIRD_WIDTH {
         return view;
     }
     let distance = view.pose.position.distance(target.aim);
@@ -176,7 +176,7 @@ fn is_elsewhere(context: &StepContext, before: &CameraState, target: &Target) ->
     let is_new = context.earlier.as_ref().is_none_or(|earlier| earlier.ids.first() != target.ids.first());
     let stays = context.forbids_turning() || context.forbidden.contains(&Motion::Travel);
     let framing = &context.step.end;
-    let turned = extent_frac(world, &aimed(world, before, target.aim), &target.sized_by);
+    let turned = extent_frac(world, &aimed(world, before, target.aim), target.sized_by());
     // A turn on the spot brings a thing to its place in the frame.
     let is_framed = is_stated(&Framing { place: None, part: SubjectPart::default(), ..framing.clone() });
     is_new && !stays && !framing.subjects.is_empty() && (is_framed || turned.max_element() < TOO_SMALL)

@@ -85,7 +85,7 @@ fn inward_ratio(context: &StepContext, target: &Target, first: &CameraState) -> 
 /// Tangent of half the field of view at the end, over that at the start.
 fn zoom_ratio(context: &StepContext, target: &Target, first: &CameraState, inward: bool) -> f64 {
     let open = if inward { inward_ratio(context, target, first) } else { lerp((1.7, 2.4), context.parameters[6]) };
-    let height = extent_frac(context.world, first, &target.sized_by).y;
+    let height = extent_frac(context.world, first, target.sized_by()).y;
     let by_size = fill_in(context.world, &context.step.end, context.parameters[7]).map(|fill| match fill {
         Fill::Height(wanted) | Fill::Fit(wanted) => height / wanted,
     });
@@ -166,7 +166,7 @@ fn grown(context: &StepContext, target: &Target, states: [&CameraState; 2]) -> f
         [id] => context.world.subject(id).map(|subject| &subject.points[..]),
         _ => None,
     };
-    let points = points.unwrap_or(&target.sized_by);
+    let points = points.unwrap_or(target.sized_by());
     let [from, to] = states.map(|state| extent_frac(context.world, state, points).y);
     let factor = to / from;
     if factor.is_finite() && factor > 0.0 { factor.clamp(1.0 / MOST_SWELLING, MOST_SWELLING) } else { 1.0 }

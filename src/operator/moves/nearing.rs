@@ -32,7 +32,7 @@ fn nears(context: &StepContext) -> bool {
     let least = framing.height_frac.or(framing.size.map(|size| height_band_frac(framing, size).0));
     let stays = context.forbidden.contains(&Motion::Travel) || context.step.duration_secs.is_some();
     let turned = aimed(context.world, before, end.aim);
-    let now = extent_frac(context.world, &turned, &end.sized_by).y;
+    let now = extent_frac(context.world, &turned, end.sized_by()).y;
     !stays && least.is_some_and(|least| now < SMALLER * least)
 }
 

@@ -58,7 +58,7 @@ pub(super) fn over_shoulder(context: &StepContext) -> Option<Vec<MotionSegment>>
 /// Whether somebody can look over a thing at the goal, and the goal lies before it.
 fn is_low_and_near(context: &StepContext, passed: &Subject, goal: &Target) -> bool {
     let world = context.world;
-    let top = world.height_above_floor(passed.center) + passed.reach(world.frame.up);
+    let top = world.top_above_floor(passed);
     let apart = world.frame.horizontal(goal.aim - passed.center).length();
     world.is_indoor() && top < LOW_TOP * world.eye_height() && apart < NEAR_RADII * passed.radius
 }

@@ -26,7 +26,8 @@ pub(super) fn overlook(context: &StepContext, targets: [&Target; 2]) -> Option<C
     let pose = Pose { position: *place + world.frame.up * rise, rotation: DQuat::IDENTITY };
     let widest = CameraState { pose, fov_y_rad: OVERLOOK_LENS_DEG.1.to_radians(), focus_distance: None };
     let views = targets.map(|target| aimed(world, &widest, target.aim));
-    let fill = views.iter().zip(targets).map(|(view, target)| extent_frac(world, view, &target.sized_by).max_element());
+    let fill =
+        views.iter().zip(targets).map(|(view, target)| extent_frac(world, view, target.sized_by()).max_element());
     let largest = fill.fold(0.0, f64::max);
     let tan = (widest.fov_y_rad / 2.0).tan() * largest / lerp(OVERLOOK_FILL, parameters[2]);
     let narrowest = OVERLOOK_LENS_DEG.0.to_radians();

@@ -4,8 +4,8 @@
 
 use glam::DVec3;
 
-use super::context::{NORMAL_LENS_DEG, StepContext, require_visible};
-use super::paths::end_view;
+use super::context::{NORMAL_LENS_DEG, StepContext};
+use super::paths::{arriving, end_view};
 use crate::constraint::{ConstraintKind, Scope};
 use crate::framing::Target;
 use crate::motion::MotionSegment;
@@ -45,13 +45,14 @@ pub(super) fn passing_by(context: &StepContext) -> Option<Vec<MotionSegment>> {
     let world = context.world;
     let end = context.end.as_ref()?;
     let things: Vec<&Subject> = passed_by(context.step).iter().filter_map(|&id| world.subject(id)).collect();
-    let gate = gate(context, &things, end)?;
+    let middle = middle(&things)?;
+    let gate = gate(context, (&things, middle), end)?;
     let first = match &context.before {
         Some(before) => *before,
         None if context.start.is_some() => {
             context.view(&context.opening_target(), &context.opening_framing(), (0.4, 0.7), NORMAL_LENS_DEG)
         }
-        None => before_things(context, &things, gate, end),
+        None => before_things(context, (&things, middle), gate, end),
     };
     let beside = aimed(world, &moved(&first, gate - first.pose.position), end.aim);
     let last = end_view(context, end, &beside);
@@ -59,13 +60,7 @@ pub(super) fn passing_by(context: &StepContext) -> Option<Vec<MotionSegment>> {
     if context.step.amount.is_none() {
         segment = segment.requiring(Scope::All, ConstraintKind::DistanceRatio(end.aim, (0.0, NEARER)));
     }
-    segment = context
-        .constrained_at_end(context.constrained_at_start(segment))
-        .requiring(Scope::End, ConstraintKind::Centered(end.clone(), 0.15));
-    if let (Some(start), None) = (&context.start, &context.before) {
-        segment = require_visible(segment, start, Scope::Start);
-    }
-    Some(vec![require_visible(segment, end, Scope::End)])
+    Some(vec![arriving(context, segment, context.start.as_ref(), end)])
 }
 
 /// Middle of some things; `None` without things.
@@ -75,10 +70,9 @@ fn middle(things: &[&Subject]) -> Option<DVec3> {
 }
 
 /// The point beside one thing, on either hand, or among several, by which the way leads. Parameter 0 chooses it, and 1 its height.
-fn gate(context: &StepContext, things: &[&Subject], end: &Target) -> Option<DVec3> {
+fn gate(context: &StepContext, (things, middle): (&[&Subject], DVec3), end: &Target) -> Option<DVec3> {
     let (world, parameters) = (context.world, context.parameters);
     let frame = &world.frame;
-    let middle = middle(things)?;
     let way = frame.horizontal(end.aim - middle).try_normalize()?;
     let aside = way.cross(frame.up);
     let off = if let [thing] = things {
@@ -94,9 +88,13 @@ fn gate(context: &StepContext, things: &[&Subject], end: &Target) -> Option<DVec
 }
 
 /// A camera before the things, on the line from the goal through the gate, that sees both.
-fn before_things(context: &StepContext, things: &[&Subject], gate: DVec3, end: &Target) -> CameraState {
+fn before_things(
+    context: &StepContext,
+    (things, middle): (&[&Subject], DVec3),
+    gate: DVec3,
+    end: &Target,
+) -> CameraState {
     let (world, parameters) = (context.world, context.parameters);
-    let middle = middle(things).unwrap_or(gate);
     let way = world.frame.horizontal(end.aim - gate).normalize_or_zero();
     let deepest = things.iter().map(|thing| (middle - thing.center).dot(way) + thing.reach(way)).fold(0.0, f64::max);
     let size = things.iter().map(|thing| thing.radius).fold(0.0, f64::max);

@@ -35,13 +35,24 @@ pub(super) fn follow(context: &StepContext) -> Vec<MotionSegment> {
     if nears {
         segment = segment.requiring(Scope::All, ConstraintKind::DistanceRatio(end.aim, (0.0, 0.7)));
     }
-    segment = context
+    vec![arriving(context, segment, Some(&start), &end)]
+}
+
+/// A way with what the words state of its ends: the start is seen where no step before decides that, and the end in the middle of the
+/// picture.
+pub(super) fn arriving(
+    context: &StepContext,
+    segment: MotionSegment,
+    start: Option<&Target>,
+    end: &Target,
+) -> MotionSegment {
+    let mut segment = context
         .constrained_at_end(context.constrained_at_start(segment))
         .requiring(Scope::End, ConstraintKind::Centered(end.clone(), 0.15));
-    if context.before.is_none() {
-        segment = require_visible(segment, &start, Scope::Start);
+    if let Some(start) = start.filter(|_| context.before.is_none()) {
+        segment = require_visible(segment, start, Scope::Start);
     }
-    vec![require_visible(segment, &end, Scope::End)]
+    require_visible(segment, end, Scope::End)
 }
 
 /// Whether the film begins with a way to the one thing that it names: `go over to the skull` sets out from farther

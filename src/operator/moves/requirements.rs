@@ -53,10 +53,11 @@ pub(super) fn require(context: &StepContext, segments: &mut [MotionSegment]) {
         // To a thing on a sideboard the camera goes along a part of that.
         let is_part = |via: &Via| via.how == Pass::Along && !step.end.subjects.is_empty() && slides(step.movement);
         add(own, Scope::All, passages(step.via.as_ref().filter(|via| !skims(context) && !is_part(via))));
-        add(own, Scope::Any, passed_in_turn(step));
-        let by = passed_by(step);
-        add(own, Scope::All, by.iter().map(|&id| ConstraintKind::Passed(Pass::Past, id)).collect());
-        add(own, Scope::Any, by.iter().map(|&id| ConstraintKind::InFrame(vec![id], PASSED_BY_FRAC)).collect());
+        let each = |ids: &[u32], kind: &dyn Fn(u32) -> ConstraintKind| ids.iter().map(|&id| kind(id)).collect();
+        let seen = |least: f64| move |id: u32| ConstraintKind::InFrame(vec![id], least);
+        add(own, Scope::Any, each(passed_in_turn(step), &seen(PASSED_FRAC)));
+        add(own, Scope::All, each(passed_by(step), &|id| ConstraintKind::Passed(Pass::Past, id)));
+        add(own, Scope::Any, each(passed_by(step), &seen(PASSED_BY_FRAC)));
         require_shoulder(context, own);
     }
 }
@@ -83,11 +84,10 @@ const PASSED_BY_FRAC: f64 = 0.4;
 const PASSED_FRAC: f64 = 0.6;
 
 /// What a turn passes is seen on the way: `pan left from the television, past the armchair, to the curtain`.
-fn passed_in_turn(step: &Step) -> Vec<ConstraintKind> {
+fn passed_in_turn(step: &Step) -> &[u32] {
     let turns = matches!(step.movement, Move::PanLeft | Move::PanRight | Move::TiltUp | Move::TiltDown);
     let via = step.via.as_ref().filter(|via| turns && via.how == Pass::Past);
-    let ids = via.map(|via| via.objects.as_slice()).unwrap_or_default();
-    ids.iter().map(|&id| ConstraintKind::InFrame(vec![id], PASSED_FRAC)).collect()
+    via.map(|via| via.objects.as_slice()).unwrap_or_default()
 }
 
 fn add(segment: &mut MotionSegment, scope: Scope, kinds: Vec<ConstraintKind>) {

@@ -115,6 +115,6 @@ fn lookout(world: &World, parameters: &StepParameters) -> Option<Lookout> {
 fn target_at(eye: DVec3, way: DVec3) -> Target {
     let (aim, half) = (eye + way, BOX_FRAC * way.length());
     let sign = |i: usize, bit: usize| if i >> bit & 1 == 1 { half } else { -half };
-    let corners: Vec<DVec3> = (0..8).map(|i| aim + DVec3::new(sign(i, 0), sign(i, 1), sign(i, 2))).collect();
-    Target { ids: Vec::new(), aim, center: aim, sized_by: corners.clone(), corners, radius: half * 3.0_f64.sqrt() }
+    let corners = (0..8).map(|i| aim + DVec3::new(sign(i, 0), sign(i, 1), sign(i, 2))).collect();
+    Target { ids: Vec::new(), aim, center: aim, corners, outline: None, radius: half * 3.0_f64.sqrt() }
 }

@@ -145,7 +145,7 @@ fn filled(
     if let Some(lens) = framing.lens {
         return with_fov(view, lerp(lens_fov_deg(lens), standing.parameters[3]).to_radians());
     }
-    let extent = extent_frac(standing.world, view, &target.sized_by);
+    let extent = extent_frac(standing.world, view, target.sized_by());
     let stated = stated_fill(framing, standing.parameters[5]);
     let (now, wanted) = match stated.unwrap_or(Fill::Fit(lerp(fill, standing.parameters[5]))) {
         Fill::Height(wanted) => (extent.y, wanted),

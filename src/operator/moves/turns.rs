@@ -258,8 +258,7 @@ fn before_both(context: &StepContext, [start, end]: [&Target; 2]) -> Option<Came
     let corners: Vec<DVec3> = start.corners.iter().chain(&end.corners).copied().collect();
     let aim = start.aim.midpoint(end.aim);
     let radius = corners.iter().map(|corner| corner.distance(aim)).fold(0.0, f64::max);
-    let sized_by = start.sized_by.iter().chain(&end.sized_by).copied().collect();
-    let both = Target { aim, corners, sized_by, radius, ..start.clone() };
+    let both = Target { aim, corners, outline: None, radius, ..start.clone() };
     let view = context.view(&both, &Framing::default(), STACKED_FILL, NORMAL_LENS_DEG);
     Some(aimed(world, &view, start.aim))
 }
