@@ -8,7 +8,7 @@ const NUM_CHANNELS: usize = 16;
 /// Number of objects; each gets an equal share of the Gaussians.
 const NUM_OBJECTS: usize = 64;
 
-/// Outputs of the renderer. All outputs other than color are computed in the blending loop of a color picture.
+/// Outputs of the renderer. Outputs other than color are computed in the blending loop of a picture, instead of its colors.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[derive(strum::AsRefStr, strum::Display, strum::EnumString, strum::IntoStaticStr)]
 #[derive(strum::VariantArray, strum::VariantNames)]
@@ -20,20 +20,16 @@ pub enum RenderOutput {
     /// Color in 8 bits, as films use it.
     #[strum(serialize = "color 8 bit")]
     Rgb8,
-    /// Color and depth, expected and median.
-    #[strum(serialize = "color+depth")]
+    /// Depth, expected and median.
     Depth,
-    /// Color and the object in each pixel; 64 objects.
-    #[strum(serialize = "color+ids")]
+    /// The object in each pixel; 64 objects.
     Ids,
-    /// Color and 16 blended features.
-    #[strum(serialize = "color+16 features")]
+    /// 16 blended features.
+    #[strum(serialize = "16 features")]
     Features,
-    /// Color and the weight of every splat in every pixel.
-    #[strum(serialize = "color+weights")]
+    /// The weight of every splat in every pixel.
     Weights,
-    /// Color, and a mask lifted to the Gaussians.
-    #[strum(serialize = "color+lift")]
+    /// A mask lifted to the Gaussians.
     Lift,
 }
 

@@ -1,8 +1,9 @@
 //! Tiles to pixels: blends each tile front to back, each block of 8 x 4 pixels with its own list of splats.
 //!
-//! Enters: the places of a tile's splats, nearest first. Leaves: the tile's pixels. Splats are processed in chunks of
-//! 256: first the coverage of every block is computed, then every block that is not yet opaque blends the splats that
-//! cover it, with its pixels in registers. A block that has become opaque takes no more splats (early termination).
+//! Enters: the places of a tile's splats, nearest first. Leaves: the tile's pixels, or what a [`Sink`] makes of the
+//! weights. Splats are processed in chunks of 256: first the coverage of every block is computed, then every block that
+//! is not yet opaque blends the splats that cover it, with its pixels in registers. A block that has become opaque takes
+//! no more splats (early termination).
 
 use std::marker::PhantomData;
 
@@ -10,9 +11,9 @@ use pulp::{Simd, WithSimd};
 
 use super::View;
 use super::coverage::{Coverage, PositionList};
-use super::kernel::{Arithmetic, Blender, Constants, Cutoffs};
+use super::kernel::{Arithmetic, Blender, CHECK_INTERVAL, Constants, Cutoffs};
 use super::payload::Sink;
-use super::pixels::TilePixels;
+use super::pixels::{BlockValues, TilePixels};
 use super::record::{RECORDS_LEN, Record};
 use super::splat::{EXPONENT_DIVISOR, Splat};
 use super::splats::Splats;
@@ -98,6 +99,7 @@ impl<'a, I: Iterator<Item = &'a [u32]>, A: Arithmetic, K: Sink> WithSimd for Til
             }
             workspace.blend_copied::<S, A, K>(simd, (len, corner), &constants, sink);
         }
+        sink.end_tile(simd);
         num_taken
     }
 }
@@ -132,16 +134,16 @@ impl Workspace {
             self.coverage.set_splat(position, splat, corner_px);
         }
         self.coverage.compute(len, &self.done);
-        if K::IS_ACTIVE {
-            sink.begin_chunk(&self.records[..len]);
-        }
+        sink.begin_chunk(&self.records[..len]);
         self.blend_blocks::<S, A, K>(simd, constants, sink);
+        sink.end_chunk();
     }
 
     /// Blends the chunk into every block that is not done.
     #[inline(always)]
     fn blend_blocks<S: Simd, A: Arithmetic, K: Sink>(&mut self, simd: S, constants: &Constants<S>, sink: &mut K) {
         let mut list = PositionList::default();
+        let mut weights = [BlockValues::ZERO; CHECK_INTERVAL];
         for block in 0..NUM_BLOCKS {
             let (strip, bit) = (block / BLOCKS_ACROSS, 1 << (block % BLOCKS_ACROSS));
             if self.done[strip] & bit != 0 {
@@ -151,7 +153,8 @@ impl Workspace {
             if len > 0 {
                 self.num_block_blends += len as u64;
                 let (records, pixels) = (&self.records, &mut self.pixels);
-                let mut blender = Blender { simd, records, constants, pixels, sink: &mut *sink };
+                let (sink, weights) = (&mut *sink, &mut weights);
+                let mut blender = Blender { simd, records, constants, pixels, sink, weights };
                 if blender.blend::<A>(block, &list.0[..len.min(RECORDS_LEN)]) {
                     self.done[strip] |= bit;
                 }

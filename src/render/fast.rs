@@ -5,7 +5,6 @@
 
 use std::marker::PhantomData;
 use std::ops::Range;
-use std::sync::{Mutex, PoisonError};
 use std::time::Instant;
 
 use rayon::prelude::*;
@@ -18,7 +17,8 @@ use super::groups::Groups;
 use super::kernel::{Arithmetic, Exact, Quick};
 use super::memory::Budget;
 use super::order::DepthOrder;
-use super::payload::{Payload, TileArea};
+use super::payload::{Payload, Sink, TileArea};
+use super::pool::Pool;
 use super::project::Projection;
 use super::sort::DepthKey;
 use super::splats::Splats;
@@ -51,33 +51,7 @@ impl Buffers {
     }
 }
 
-/// A pool of reusable buffers.
-#[derive(Debug)]
-pub(super) struct Pool<T>(Mutex<Vec<T>>);
-
-impl<T> Default for Pool<T> {
-    fn default() -> Self {
-        Self(Mutex::new(Vec::new()))
-    }
-}
-
-impl<T: Default> Pool<T> {
-    /// Calls `work` with a free item of the pool, or with a new one if none is free.
-    pub(super) fn with<R>(&self, work: impl FnOnce(&mut T) -> R) -> R {
-        let free = self.0.lock().unwrap_or_else(PoisonError::into_inner).pop();
-        let mut item = free.unwrap_or_default();
-        let result = work(&mut item);
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).push(item);
-        result
-    }
-
-    /// Sum of `size` over all free items.
-    pub(super) fn sum(&self, size: impl Fn(&T) -> u64) -> u64 {
-        self.0.lock().unwrap_or_else(PoisonError::into_inner).iter().map(size).sum()
-    }
-}
-
-/// Renders onto a canvas of the view's size.
+/// Renders onto a canvas of the view's size, which must be there unless the payload takes the weights.
 ///
 /// # Errors
 /// [`RenderError::Cost`] and [`RenderError::Memory`] where the picture exceeds the limits.
@@ -86,7 +60,7 @@ pub(super) fn render<P: Payload>(
     view: &View,
     settings: &RenderSettings,
     buffers: &mut Buffers,
-    (canvas, sweep, payload): (Canvas<'_>, Option<&ViewSweep>, &P),
+    (canvas, sweep, payload): (Option<Canvas<'_>>, Option<&ViewSweep>, &P),
 ) -> Result<(RenderStats, Vec<P::TileOutput>), RenderError> {
     let (gaussians, groups) = scene;
     let mut budget = Budget::of_picture(view, &settings.limits)?;
@@ -96,7 +70,7 @@ pub(super) fn render<P: Payload>(
     }
     let bytes_before_bands = budget.bytes_before_bands(gaussians.len(), u64::from(view.width) * u64::from(view.height));
     budget.take("buffers of the threads", (rayon::current_num_threads() * Workspace::BYTES) as u64)?;
-    let bands = &canvas.into_bands(view.width as usize);
+    let bands = &canvas.map_or_else(Vec::new, |canvas| canvas.into_bands(view.width as usize));
     let grid = TileGrid::of(view);
     let mut picture = Picture {
         scene,
@@ -129,7 +103,7 @@ struct Picture<'a, P: Payload> {
     settings: &'a RenderSettings,
     buffers: &'a mut Buffers,
     payload: &'a P,
-    /// The canvas, one band per row of tiles.
+    /// The canvas, one band per row of tiles; none if the payload takes the weights.
     bands: &'a [Band<'a>],
     grid: TileGrid,
     /// Budget for the splats of a band.
@@ -234,6 +208,9 @@ impl<P: Payload> Picture<'_, P> {
                 num_taken
             };
             let num_taken = blend(None, workspace);
+            if P::Sink::TAKES_WEIGHTS {
+                return (num_blends, self.payload.finish(sink, area));
+            }
             let seen = || bins.of_tile(tile_idx).flatten().take(num_taken).map(|&place| splats.get(place));
             match self.sweep.map(|sweep| sweep.pattern_of(seen())) {
                 None => self.write(column_row, workspace, None),

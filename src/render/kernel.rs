@@ -1,18 +1,18 @@
 //! The innermost loop: blends many splats into one block of pixels. Color and transmittance stay in registers.
 //!
 //! Enters: the records of a chunk of splats and the list of those that cover the block, nearest first. Leaves: the
-//! block's pixels, and the weights for a [`Sink`]. The opacity is 2^(8 e) with e = level - u^2 - v^2. An [`Arithmetic`]
+//! block's pixels: either their colors or, for a [`Sink`], the weights of the splats. The opacity is 2^(8 e) with e = level - u^2 - v^2. An [`Arithmetic`]
 //! decides how that power is computed, and whether each pixel or the whole block stops.
 
 use pulp::Simd;
 
 use super::payload::Sink;
-use super::pixels::{HALF_LEN, Pixels, TilePixels, centers};
+use super::pixels::{BlockValues, HALF_LEN, Pixels, TilePixels, centers};
 use super::record::{RECORDS_LEN, Record};
 use super::spec;
 
 /// Splats blended between two checks of the transmittance; 8 and 24 took as long.
-const CHECK_INTERVAL: usize = 16;
+pub(super) const CHECK_INTERVAL: usize = 16;
 
 /// The alpha cut and the transmittance stop in the units of the kernel.
 #[derive(Debug, Clone, Copy)]
@@ -141,6 +141,8 @@ pub(super) struct Blender<'a, S: Simd, K> {
     pub(super) constants: &'a Constants<S>,
     pub(super) pixels: &'a mut TilePixels,
     pub(super) sink: &'a mut K,
+    /// Weights of the splats since the last check of the transmittance, for the sink.
+    pub(super) weights: &'a mut [BlockValues; CHECK_INTERVAL],
 }
 
 impl<S: Simd, K: Sink> Blender<'_, S, K> {
@@ -152,22 +154,38 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
     pub(super) fn blend<A: Arithmetic>(&mut self, block: usize, list: &[u8]) -> bool {
         if S::F32_LANES == HALF_LEN {
             let mut registers = self.load::<A>(block, 0);
-            let is_done = list.chunks(CHECK_INTERVAL).any(|chunk| !self.blend_all::<A>(chunk, &mut registers));
+            let mut is_open = true;
+            for chunk in list.chunks(CHECK_INTERVAL) {
+                is_open = self.blend_all::<A>(chunk, 0, &mut registers);
+                self.pass_on(block, chunk);
+                if !is_open {
+                    break;
+                }
+            }
             self.store::<A>(&registers);
-            return is_done;
+            return !is_open;
         }
         for chunk in list.chunks(CHECK_INTERVAL) {
             let mut is_open = false;
             for first_lane in (0..HALF_LEN).step_by(S::F32_LANES) {
                 let mut registers = self.load::<A>(block, first_lane);
-                is_open |= self.blend_all::<A>(chunk, &mut registers);
+                is_open |= self.blend_all::<A>(chunk, first_lane, &mut registers);
                 self.store::<A>(&registers);
             }
+            self.pass_on(block, chunk);
             if !is_open {
                 return true;
             }
         }
         false
+    }
+
+    /// Passes the weights of the listed splats, which were just blended, to the sink.
+    #[inline(always)]
+    fn pass_on(&mut self, block: usize, list: &[u8]) {
+        if K::TAKES_WEIGHTS {
+            self.sink.add_block(self.simd, block, list, &self.weights[..list.len().min(CHECK_INTERVAL)]);
+        }
     }
 
     /// Loads the pixels of both halves of a block.
@@ -198,33 +216,35 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
                 let stopped = simd.neg_f32s(pixels.rest);
                 pixels.transmittance = simd.select_f32s(is_open, pixels.transmittance, stopped);
             }
-            self.pixels.store(simd, &pixels);
+            if K::TAKES_WEIGHTS {
+                self.pixels.store_transmittance(simd, &pixels);
+            } else {
+                self.pixels.store(simd, &pixels);
+            }
         }
     }
 
-    /// Blends the listed splats, nearest first; returns whether any pixel takes more.
+    /// Blends the listed splats, nearest first; returns whether any pixel takes more. `first_lane` is where the registers
+    /// begin in their half blocks.
     ///
     /// Opacities are computed for two splats and both halves together: each is a chain of twenty dependent operations,
     /// too long for out-of-order execution to overlap. With only 16 registers, values would spill to memory.
     #[inline(always)]
-    fn blend_all<A: Arithmetic>(&mut self, list: &[u8], registers: &mut BlockRegisters<S>) -> bool {
+    fn blend_all<A: Arithmetic>(&mut self, list: &[u8], first_lane: usize, registers: &mut BlockRegisters<S>) -> bool {
         let simd = self.simd;
         let (pairs, last) = if S::REGISTER_COUNT < 32 { (&[][..], list) } else { list.as_chunks::<2>() };
-        for &[first, second] in pairs {
+        for (pair, &[first, second]) in pairs.iter().enumerate() {
             let (first, second) = (usize::from(first) % RECORDS_LEN, usize::from(second) % RECORDS_LEN);
             let [a, b] = self.exponents(first, registers);
             let [c, d] = self.exponents(second, registers);
             let [a, b, c, d] = self.alphas::<A, 4>([a, b, c, d]);
-            self.add::<A>(first, a, &mut registers.pixels[0]);
-            self.add::<A>(first, b, &mut registers.pixels[1]);
-            self.add::<A>(second, c, &mut registers.pixels[0]);
-            self.add::<A>(second, d, &mut registers.pixels[1]);
+            self.add::<A>(first, [a, b], registers, (2 * pair, first_lane));
+            self.add::<A>(second, [c, d], registers, (2 * pair + 1, first_lane));
         }
-        for &position in last {
+        for (place, &position) in (list.len() - last.len()..).zip(last) {
             let position = usize::from(position) % RECORDS_LEN;
-            let [a, b] = self.alphas::<A, 2>(self.exponents(position, registers));
-            self.add::<A>(position, a, &mut registers.pixels[0]);
-            self.add::<A>(position, b, &mut registers.pixels[1]);
+            let alphas = self.alphas::<A, 2>(self.exponents(position, registers));
+            self.add::<A>(position, alphas, registers, (place, first_lane));
         }
         let most = simd.max_f32s(registers.pixels[0].transmittance, registers.pixels[1].transmittance);
         any::<S>(simd.greater_than_or_equal_f32s(most, self.constants.stop))
@@ -255,25 +275,47 @@ impl<S: Simd, K: Sink> Blender<'_, S, K> {
         power
     }
 
-    /// Blends one splat into pixels.
+    /// Blends one splat into the pixels of both halves. `place` and `first_lane` are where its weights go.
     #[inline(always)]
-    fn add<A: Arithmetic>(&mut self, position: usize, alpha: S::f32s, pixels: &mut Pixels<S>) {
-        let (simd, before) = (self.simd, pixels.transmittance);
-        let mut weight = simd.mul_f32s(alpha, before);
-        pixels.transmittance = simd.negate_mul_add_f32s(alpha, before, before);
-        if A::STOPS_EACH_PIXEL {
-            // Once below the stop, the transmittance stays below it: a stopped pixel does not resume.
-            let goes_on = simd.greater_than_or_equal_f32s(pixels.transmittance, self.constants.stop);
-            weight = simd.select_f32s(goes_on, weight, self.constants.zero);
-            pixels.rest = simd.select_f32s(goes_on, pixels.transmittance, pixels.rest);
+    fn add<A: Arithmetic>(
+        &mut self,
+        position: usize,
+        alphas: [S::f32s; 2],
+        registers: &mut BlockRegisters<S>,
+        (place, first_lane): (usize, usize),
+    ) {
+        let [left, right] = &mut registers.pixels;
+        let weights = [self.weight::<A>(alphas[0], left), self.weight::<A>(alphas[1], right)];
+        if K::TAKES_WEIGHTS {
+            self.weights[place % CHECK_INTERVAL].store(self.simd, first_lane, weights);
+        } else {
+            self.add_color(position, weights[0], left);
+            self.add_color(position, weights[1], right);
         }
-        let [red, green, blue] = self.records[position].color;
+    }
+
+    /// The weight of a splat in pixels, whose transmittance it reduces.
+    #[inline(always)]
+    fn weight<A: Arithmetic>(&self, alpha: S::f32s, pixels: &mut Pixels<S>) -> S::f32s {
+        let (simd, before) = (self.simd, pixels.transmittance);
+        let weight = simd.mul_f32s(alpha, before);
+        pixels.transmittance = simd.negate_mul_add_f32s(alpha, before, before);
+        if !A::STOPS_EACH_PIXEL {
+            return weight;
+        }
+        // Once below the stop, the transmittance stays below it: a stopped pixel does not resume.
+        let goes_on = simd.greater_than_or_equal_f32s(pixels.transmittance, self.constants.stop);
+        pixels.rest = simd.select_f32s(goes_on, pixels.transmittance, pixels.rest);
+        simd.select_f32s(goes_on, weight, self.constants.zero)
+    }
+
+    /// Adds the color of a splat to pixels.
+    #[inline(always)]
+    fn add_color(&self, position: usize, weight: S::f32s, pixels: &mut Pixels<S>) {
+        let (simd, [red, green, blue]) = (self.simd, self.records[position].color);
         pixels.red = simd.mul_add_f32s(weight, simd.splat_f32s(red), pixels.red);
         pixels.green = simd.mul_add_f32s(weight, simd.splat_f32s(green), pixels.green);
         pixels.blue = simd.mul_add_f32s(weight, simd.splat_f32s(blue), pixels.blue);
-        if K::IS_ACTIVE {
-            self.sink.add(position, pixels.first, bytemuck::cast_slice(std::slice::from_ref(&weight)));
-        }
     }
 }
 

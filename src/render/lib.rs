@@ -4,10 +4,10 @@
 //!
 //! Enters: [`cinesplat_scene::Gaussians`] (loaded with [`cinesplat_scene::load`] or made in memory), a
 //! [`cinesplat_geometry::Camera`] and [`RenderSettings`]. Leaves: a [`Frame`] (color in `f32` and the final
-//! transmittance of every pixel) or an [`Rgb8Frame`] (8 bits). The same blending loop also gives depth
+//! transmittance of every pixel) or an [`Rgb8Frame`] (8 bits). Instead of colors, the same blending loop gives depth
 //! ([`Renderer::depth`]), object ids ([`Renderer::object_ids`]), blended features ([`Renderer::features`]), the weight
 //! of every Gaussian in every pixel ([`Renderer::weights`]), and sums of pixel values per Gaussian
-//! ([`Renderer::lift`]).
+//! ([`Renderer::lift`]). `cinesplat bench render` measures what each costs beside a picture.
 //!
 //! # Example
 //!
@@ -96,6 +96,7 @@ mod memory;
 mod order;
 mod payload;
 mod pixels;
+mod pool;
 mod project;
 mod record;
 mod reference;

@@ -1,7 +1,10 @@
+use pulp::Simd;
+
 use super::memory::SharedBudget;
 use super::payload::{Payload, Sink, TileArea};
+use super::pixels::{BlockValues, HALF_LEN, load, store};
 use super::record::Record;
-use super::tiles::TILE_LEN;
+use super::tiles::NUM_BLOCKS;
 
 /// Pixel values summed per Gaussian, over one or several pictures.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -61,17 +64,20 @@ pub(super) struct LiftTile {
 
 /// Running sums of one tile.
 pub(super) struct LiftSink<'a> {
-    budget: &'a SharedBudget,
+    payload: &'a LiftPayload<'a>,
     is_full: bool,
-    /// Values of the tile's pixels, and 1 as the last of each pixel: `[pixel * (num_channels + 1) + channel]`.
-    values: Vec<f32>,
+    /// Values of the tile's pixels, and 1 as the last of each pixel, 0 outside the picture: `[block * stride + channel]`.
+    values: Vec<BlockValues>,
     stride: usize,
+    /// Sums over the blocks for the splats of the current chunk, one per place in half a block: `[position * stride +
+    /// channel]`.
+    sums: Vec<[f32; HALF_LEN]>,
+    /// Gaussians of the current chunk.
+    gaussians: Vec<u32>,
     tile: LiftTile,
-    /// Row of the first splat of the current chunk.
-    first: usize,
 }
 
-impl<'a> Payload for &'a LiftPayload<'_> {
+impl<'a> Payload for &'a LiftPayload<'a> {
     type Sink = LiftSink<'a>;
     type TileOutput = LiftTile;
 
@@ -82,15 +88,16 @@ impl<'a> Payload for &'a LiftPayload<'_> {
 
     fn sink(&self, area: TileArea) -> LiftSink<'a> {
         let stride = self.num_channels + 1;
-        let mut values = vec![0.0; TILE_LEN * stride];
-        for (pixel, row) in values.chunks_exact_mut(stride).enumerate() {
-            if let Some(idx) = area.picture_idx(pixel) {
-                row[..self.num_channels].copy_from_slice(&self.values[idx * self.num_channels..][..self.num_channels]);
-                row[self.num_channels] = 1.0;
+        let mut values = vec![BlockValues::ZERO; NUM_BLOCKS * stride];
+        for (block, values) in values.chunks_exact_mut(stride).enumerate() {
+            for (pixel, idx) in area.picture_idxs(block).into_iter().enumerate() {
+                let (Some(idx), half, lane) = (idx, pixel / HALF_LEN, pixel % HALF_LEN) else { continue };
+                let of_pixel = self.values[idx * self.num_channels..][..self.num_channels].iter().chain(&[1.0]);
+                values.iter_mut().zip(of_pixel).for_each(|(to, value)| to.0[half][lane] = *value);
             }
         }
-        let budget = &self.budget;
-        LiftSink { budget, is_full: false, values, stride, tile: LiftTile::default(), first: 0 }
+        let (sums, gaussians, tile) = (Vec::new(), Vec::new(), LiftTile::default());
+        LiftSink { payload: self, is_full: false, values, stride, sums, gaussians, tile }
     }
 
     fn finish(&self, sink: LiftSink<'a>, _: TileArea) -> LiftTile {
@@ -99,30 +106,56 @@ impl<'a> Payload for &'a LiftPayload<'_> {
 }
 
 impl Sink for LiftSink<'_> {
-    const IS_ACTIVE: bool = true;
+    const TAKES_WEIGHTS: bool = true;
 
+    #[inline(always)]
     fn begin_chunk(&mut self, records: &[Record]) {
         let row_bytes = size_of::<u32>() + self.stride * size_of::<f32>();
-        self.is_full |= !self.budget.take((records.len() * row_bytes) as u64);
-        if self.is_full {
-            return;
-        }
-        self.first = self.tile.gaussians.len();
-        self.tile.gaussians.extend(records.iter().map(|record| record.gaussian_idx));
-        self.tile.sums.resize(self.tile.gaussians.len() * self.stride, 0.0);
+        self.is_full |= !self.payload.budget.take((records.len() * row_bytes) as u64);
+        self.gaussians.clear();
+        self.gaussians.extend(records.iter().map(|record| record.gaussian_idx));
+        self.sums.clear();
+        self.sums.resize(records.len() * self.stride, [0.0; HALF_LEN]);
     }
 
     #[inline(always)]
-    fn add(&mut self, position: usize, first_pixel: usize, weights: &[f32]) {
-        if self.is_full {
-            return;
-        }
-        let sums = &mut self.tile.sums[(self.first + position) * self.stride..][..self.stride];
-        let values = self.values[first_pixel * self.stride..].chunks_exact(self.stride);
-        for (values, &weight) in values.zip(weights).filter(|(_, weight)| **weight > 0.0) {
-            for (sum, value) in sums.iter_mut().zip(values) {
-                *sum += weight * value;
+    fn add_block<S: Simd>(&mut self, simd: S, block: usize, list: &[u8], weights: &[BlockValues]) {
+        let (values, zero) = (&self.values[block * self.stride..][..self.stride], simd.splat_f32s(0.0));
+        for (&position, weights) in list.iter().zip(weights) {
+            let sums = &mut self.sums[usize::from(position) * self.stride..][..self.stride];
+            for first_lane in (0..HALF_LEN).step_by(S::F32_LANES) {
+                let weights = weights.load(simd, first_lane);
+                // A value may be NaN: it must not reach splats that are not in the pixel.
+                let counts = weights.map(|weight| simd.greater_than_f32s(weight, zero));
+                for (sum, values) in sums.iter_mut().zip(values) {
+                    let (mut total, values) = (load(simd, sum, first_lane), values.load(simd, first_lane));
+                    for half in 0..2 {
+                        let more = simd.mul_add_f32s(weights[half], values[half], total);
+                        total = simd.select_f32s(counts[half], more, total);
+                    }
+                    store(simd, sum, first_lane, total);
+                }
             }
         }
     }
+
+    #[inline(always)]
+    fn end_chunk(&mut self) {
+        if !self.is_full {
+            self.tile.gaussians.extend_from_slice(&self.gaussians);
+            self.tile.sums.extend(self.sums.iter().map(total));
+        }
+    }
+}
+
+/// Sum of all numbers, always in the same order: halves are added, then halves of the result.
+#[inline(always)]
+fn total(numbers: &[f32; HALF_LEN]) -> f32 {
+    let mut sums = *numbers;
+    for half in [8, 4, 2, 1] {
+        for lane in 0..half {
+            sums[lane] += sums[lane + half];
+        }
+    }
+    sums[0]
 }

@@ -1,23 +1,38 @@
 //! Outputs besides color, computed from the blending weights (opacity times transmittance) of splats in pixels.
 //!
-//! Enters: weights from the blending loop. Leaves: one output per tile. The blending loop is generic over the payload,
-//! so that rendering color alone has no overhead.
+//! Enters: weights from the blending loop, one block of pixels at a time. Leaves: one output per tile. The blending loop
+//! is generic over the payload: it computes either colors or weights, and never both. A sink keeps the sums of a block in
+//! registers while it adds the splats of one call.
 
-use super::pixels::position_in_tile;
+use pulp::Simd;
+
+use super::pixels::{BlockValues, HALF_WIDTH, position_in_tile};
 use super::record::Record;
-use super::tiles::{TILE_LEN, TILE_PX};
+use super::tiles::{BLOCK_HEIGHT, BLOCK_WIDTH, TILE_PX};
+
+/// Pixels of a block.
+pub(super) const BLOCK_LEN: usize = BLOCK_WIDTH * BLOCK_HEIGHT;
 
 /// Receives the weights of one tile.
 pub(super) trait Sink {
-    /// Whether it needs weights; if not, the calls are compiled away.
-    const IS_ACTIVE: bool;
+    /// Whether it takes weights, instead of the picture; if not, the calls are compiled away.
+    const TAKES_WEIGHTS: bool;
 
     /// Starts a chunk: the positions of the following weights are indices into `records`.
     fn begin_chunk(&mut self, records: &[Record]);
 
-    /// Adds the weights of the splat at a position, in the tile's pixels from `first_pixel` on; [`position_in_tile`]
-    /// explains their order. In every pixel the nearest splats come first.
-    fn add(&mut self, position: usize, first_pixel: usize, weights: &[f32]);
+    /// Adds the weights in one block of the splats at the listed positions, nearest first. The numbers of the block's
+    /// pixels start at `block * BLOCK_LEN`; [`position_in_tile`] explains their order. In every block the
+    /// nearest splats come first.
+    fn add_block<S: Simd>(&mut self, simd: S, block: usize, list: &[u8], weights: &[BlockValues]);
+
+    /// Ends a chunk.
+    #[inline(always)]
+    fn end_chunk(&mut self) {}
+
+    /// Ends the tile.
+    #[inline(always)]
+    fn end_tile<S: Simd>(&mut self, _: S) {}
 }
 
 /// A tile's place in the picture.
@@ -32,11 +47,24 @@ pub(super) struct TileArea {
 }
 
 impl TileArea {
-    /// Index of a pixel of the tile in the picture, row-major; `None` outside the picture.
-    pub(super) fn picture_idx(&self, pixel: usize) -> Option<usize> {
-        let [column, row] = position_in_tile(pixel);
-        let (x, y) = (self.origin_px[0] + column, self.origin_px[1] + row);
-        (x < self.width && y < self.height).then_some(y * self.width + x)
+    /// Index in the picture, row-major, of every pixel of a block; `None` outside the picture.
+    #[inline(always)]
+    pub(super) fn picture_idxs(&self, block: usize) -> [Option<usize>; BLOCK_LEN] {
+        let mut idxs = [None; BLOCK_LEN];
+        for (quad, idxs) in idxs.as_chunks_mut::<HALF_WIDTH>().0.iter_mut().enumerate() {
+            let [column, row] = position_in_tile(block * BLOCK_LEN + quad * HALF_WIDTH);
+            let (left, y) = (self.origin_px[0] + column, self.origin_px[1] + row);
+            for (x, idx) in (left..).zip(idxs) {
+                *idx = (x < self.width && y < self.height).then_some(y * self.width + x);
+            }
+        }
+        idxs
+    }
+
+    /// Index of the tile in the picture, row-major.
+    pub(super) fn tile_idx(&self) -> usize {
+        let [column, row] = self.origin_px.map(|origin_px| origin_px / TILE_PX);
+        row * self.width.div_ceil(TILE_PX) + column
     }
 
     /// Reorders values of the tile's pixels (`num_channels` per pixel, in the tile's own order) to rows; drops pixels
@@ -45,10 +73,13 @@ impl TileArea {
         let num_columns = (self.width - self.origin_px[0]).min(TILE_PX);
         let num_rows = (self.height - self.origin_px[1]).min(TILE_PX);
         let mut ordered = vec![T::default(); num_columns * num_rows * num_channels];
-        for (pixel, value) in values.chunks_exact(num_channels).enumerate().take(TILE_LEN) {
-            let [column, row] = position_in_tile(pixel);
+        // Four neighbors at a time: they are neighbors in the tile's own order, too.
+        for (quad, values) in values.chunks_exact(HALF_WIDTH * num_channels).enumerate() {
+            let [column, row] = position_in_tile(quad * HALF_WIDTH);
             if column < num_columns && row < num_rows {
-                ordered[(row * num_columns + column) * num_channels..][..num_channels].copy_from_slice(value);
+                let num_values = HALF_WIDTH.min(num_columns - column) * num_channels;
+                ordered[(row * num_columns + column) * num_channels..][..num_values]
+                    .copy_from_slice(&values[..num_values]);
             }
         }
         TileRows { area: self, num_columns, num_channels, values: ordered }
@@ -100,11 +131,13 @@ pub(super) trait Payload: Sync {
 pub(super) struct ColorOnly;
 
 impl Sink for ColorOnly {
-    const IS_ACTIVE: bool = false;
+    const TAKES_WEIGHTS: bool = false;
 
+    #[inline(always)]
     fn begin_chunk(&mut self, _: &[Record]) {}
 
-    fn add(&mut self, _: usize, _: usize, _: &[f32]) {}
+    #[inline(always)]
+    fn add_block<S: Simd>(&mut self, _: S, _: usize, _: &[u8], _: &[BlockValues]) {}
 }
 
 impl Payload for ColorOnly {

@@ -101,7 +101,14 @@ impl TilePixels {
         store(simd, &mut to.red, first_lane, pixels.red);
         store(simd, &mut to.green, first_lane, pixels.green);
         store(simd, &mut to.blue, first_lane, pixels.blue);
-        store(simd, &mut to.transmittance, first_lane, pixels.transmittance);
+        self.store_transmittance(simd, pixels);
+    }
+
+    /// As [`TilePixels::store`], the transmittance alone.
+    #[inline(always)]
+    pub(super) fn store_transmittance<S: Simd>(&mut self, simd: S, pixels: &Pixels<S>) {
+        let (half, first_lane) = (pixels.first / HALF_LEN, pixels.first % HALF_LEN);
+        store(simd, &mut self.0[half % NUM_HALVES].transmittance, first_lane, pixels.transmittance);
     }
 
     /// One row of the tile over a background.
@@ -156,6 +163,34 @@ impl TileRow<'_> {
     }
 }
 
+/// One number per pixel of a block: its left half, then its right half, both in the order of [`TilePixels`].
+#[derive(Debug, Clone, Copy)]
+#[repr(C, align(64))]
+pub(super) struct BlockValues(pub(super) [[f32; HALF_LEN]; 2]);
+
+impl BlockValues {
+    /// All numbers 0.
+    pub(super) const ZERO: Self = Self::splat(0.0);
+
+    /// All numbers equal.
+    pub(super) const fn splat(value: f32) -> Self {
+        Self([[value; HALF_LEN]; 2])
+    }
+
+    /// Loads a register per half, from `first_lane` of each half on.
+    #[inline(always)]
+    pub(super) fn load<S: Simd>(&self, simd: S, first_lane: usize) -> [S::f32s; 2] {
+        [load(simd, &self.0[0], first_lane), load(simd, &self.0[1], first_lane)]
+    }
+
+    /// Stores a register per half, from `first_lane` of each half on.
+    #[inline(always)]
+    pub(super) fn store<S: Simd>(&mut self, simd: S, first_lane: usize, [left, right]: [S::f32s; 2]) {
+        store(simd, &mut self.0[0], first_lane, left);
+        store(simd, &mut self.0[1], first_lane, right);
+    }
+}
+
 /// Column and row in the tile of a pixel, from the pixel's number.
 pub(super) fn position_in_tile(pixel: usize) -> [usize; 2] {
     let (half, lane) = (pixel / HALF_LEN, pixel % HALF_LEN);
@@ -190,7 +225,8 @@ pub(super) fn load<S: Simd>(_: S, numbers: &[f32; HALF_LEN], first: usize) -> S:
     S::as_simd_f32s(&numbers[first..first + S::F32_LANES]).0[0]
 }
 
+/// Stores a register of numbers, starting at `first`.
 #[inline(always)]
-fn store<S: Simd>(_: S, numbers: &mut [f32; HALF_LEN], first: usize, values: S::f32s) {
+pub(super) fn store<S: Simd>(_: S, numbers: &mut [f32; HALF_LEN], first: usize, values: S::f32s) {
     S::as_mut_simd_f32s(&mut numbers[first..first + S::F32_LANES]).0[0] = values;
 }

@@ -6,15 +6,16 @@ use super::blur::SubFrame;
 use super::canvas::Canvas;
 use super::depth::{DepthMap, DepthPayload};
 use super::error::check_len;
-use super::fast::{self, Buffers, Pool};
+use super::fast::{self, Buffers};
 use super::groups::{Groups, Pack};
 use super::ids::{IdMap, IdPayload};
 use super::lift::{LiftPayload, LiftedValues};
 use super::memory::{Budget, SharedBudget, bytes_of};
 use super::payload::{ColorOnly, Payload};
+use super::pool::Pool;
 use super::sweep::ViewSweep;
 use super::upsample::upsample;
-use super::weights::{PixelWeight, WeightPayload};
+use super::weights::{PixelWeight, WeightCounts, WeightPayload};
 use super::{Frame, Quality, RenderError, RenderSettings, RenderStats, Rgb8Frame, View, reference};
 use cinesplat_geometry::Camera;
 use cinesplat_scene::Gaussians;
@@ -168,7 +169,7 @@ impl<'scene> Renderer<'scene> {
     ) -> Result<RenderStats, RenderError> {
         let resolution_frac = settings.effective_accuracy().resolution_frac;
         if resolution_frac >= 1.0 {
-            return Ok(self.render_payload(view, settings, (canvas, None), &ColorOnly)?.0);
+            return Ok(self.render_payload(view, settings, (Some(canvas), None), &ColorOnly)?.0);
         }
         let mut small_view = self.view_of(&subframe.scaled(resolution_frac), settings)?;
         // Keeps the dilation that the large picture has. The small picture then samples the large one, and enlarging
@@ -177,7 +178,7 @@ impl<'scene> Renderer<'scene> {
         self.small_frames.with(|small| {
             small.resize(small_view.width, small_view.height);
             let (stats, _) =
-                self.render_payload(&small_view, settings, (Canvas::from(&mut *small), None), &ColorOnly)?;
+                self.render_payload(&small_view, settings, (Some(Canvas::from(&mut *small)), None), &ColorOnly)?;
             upsample(small, canvas, [view.width, view.height], settings.instructions);
             Ok(stats)
         })
@@ -188,8 +189,8 @@ impl<'scene> Renderer<'scene> {
     /// # Errors
     /// Those of [`Renderer::render`].
     pub fn depth(&self, camera: &Camera, settings: &RenderSettings) -> Result<DepthMap, RenderError> {
-        let (frame, tiles) = self.render_with_payload(camera, settings, &DepthPayload)?;
-        Ok(DepthMap::assemble(frame.width, frame.height, tiles))
+        let tiles = self.tiles_of_payload(camera, settings, &DepthPayload)?;
+        Ok(DepthMap::assemble(camera.intrinsics.width, camera.intrinsics.height, tiles))
     }
 
     /// The object in each pixel: the label with the largest sum of blending weights. `labels` holds one per Gaussian,
@@ -199,8 +200,8 @@ impl<'scene> Renderer<'scene> {
     /// Those of [`Renderer::render`]; [`RenderError::Length`] unless there is one label per Gaussian.
     pub fn object_ids(&self, camera: &Camera, settings: &RenderSettings, labels: &[u16]) -> Result<IdMap, RenderError> {
         check_len("labels", labels.len(), self.gaussians.len())?;
-        let (frame, tiles) = self.render_with_payload(camera, settings, &IdPayload { labels })?;
-        Ok(IdMap::assemble(frame.width, frame.height, &tiles))
+        let tiles = self.tiles_of_payload(camera, settings, &&IdPayload::new(labels))?;
+        Ok(IdMap::assemble(camera.intrinsics.width, camera.intrinsics.height, &tiles))
     }
 
     /// Adds pixel values (`[(row * width + column) * num_channels + channel]`) to the Gaussians that are visible in the
@@ -220,44 +221,42 @@ impl<'scene> Renderer<'scene> {
         check_len("pixel values", values.len(), num_pixels * num_channels)?;
         check_len("lifted weights", lifted.weights.len(), self.gaussians.len())?;
         let payload = &LiftPayload { values, num_channels, budget: SharedBudget::default() };
-        let (_, tiles) = self.render_with_payload(camera, settings, &payload)?;
+        let tiles = self.tiles_of_payload(camera, settings, &payload)?;
         payload.budget.check("the rows of lifted sums")?;
         lifted.add(tiles);
         Ok(())
     }
 
     /// The blending weight of every splat in every pixel: nearest first within a pixel, pixels in no defined order. The
-    /// list is long: about fifty entries per pixel in an indoor scene.
+    /// list is long: about fifty entries per pixel in an indoor scene. Blends twice: to count the weights, and to list them.
     ///
     /// # Errors
     /// Those of [`Renderer::render`]; [`RenderError::Memory`] if the list exceeds the limit.
     pub fn weights(&self, camera: &Camera, settings: &RenderSettings) -> Result<Vec<PixelWeight>, RenderError> {
-        let payload = &WeightPayload::default();
-        let (_, tiles) = self.render_with_payload(camera, settings, &payload)?;
-        payload.budget.check("the list of weights")?;
-        Ok(tiles.into_iter().flatten().collect())
+        let counts = WeightCounts::default();
+        let nums = self.tiles_of_payload(camera, settings, &counts)?;
+        counts.budget.check("the list of weights")?;
+        let mut list = bytemuck::zeroed_vec(nums.iter().sum());
+        self.tiles_of_payload(camera, settings, &WeightPayload::new(&mut list, &nums))?;
+        Ok(list)
     }
 
-    /// A picture at full resolution in `f32` with the tiles of a payload.
-    pub(super) fn render_with_payload<P: Payload>(
+    /// The tiles of a payload that takes the weights, at full resolution.
+    pub(super) fn tiles_of_payload<P: Payload>(
         &self,
         camera: &Camera,
         settings: &RenderSettings,
         payload: &P,
-    ) -> Result<(Frame, Vec<P::TileOutput>), RenderError> {
+    ) -> Result<Vec<P::TileOutput>, RenderError> {
         let view = View::new(camera, self.gaussians.origin, settings)?;
-        let mut frame = Frame::default();
-        frame.resize(view.width, view.height);
-        let (stats, tiles) = self.render_payload(&view, settings, (Canvas::from(&mut frame), None), payload)?;
-        frame.stats = stats;
-        Ok((frame, tiles))
+        Ok(self.render_payload(&view, settings, (None, None), payload)?.1)
     }
 
     fn render_payload<P: Payload>(
         &self,
         view: &View,
         settings: &RenderSettings,
-        (canvas, sweep): (Canvas<'_>, Option<&ViewSweep>),
+        (canvas, sweep): (Option<Canvas<'_>>, Option<&ViewSweep>),
         payload: &P,
     ) -> Result<(RenderStats, Vec<P::TileOutput>), RenderError> {
         let scene = (self.gaussians, &self.groups);
@@ -272,7 +271,7 @@ impl<'scene> Renderer<'scene> {
         sweep: &ViewSweep,
         settings: &RenderSettings,
     ) -> Result<RenderStats, RenderError> {
-        Ok(self.render_payload(view, settings, (canvas, Some(sweep)), &ColorOnly)?.0)
+        Ok(self.render_payload(view, settings, (Some(canvas), Some(sweep)), &ColorOnly)?.0)
     }
 
     fn render_reference(&self, view: &View, settings: &RenderSettings, frame: &mut Frame) -> Result<(), RenderError> {

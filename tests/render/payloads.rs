@@ -1,8 +1,10 @@
 //! Depth, object ids, weights, features and lifted values agree with the blending weights of the picture.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use cinesplat::geometry::{Camera, Intrinsics, Pose};
 use cinesplat::objects;
-use cinesplat::render::{Frame, LiftedValues, Limits, Quality, RenderSettings, Renderer};
+use cinesplat::render::{Frame, InstructionSet, LiftedValues, Limits, PixelWeight, Quality, RenderSettings, Renderer};
 use cinesplat::scene::{self, Gaussians, LoadOptions};
 use glam::{DVec3, Quat, Vec3};
 
@@ -150,6 +152,97 @@ fn features_blend_as_colors_for_any_number_of_channels() {
     let limits = Limits { max_memory_bytes: 150 * 90 * 16 + 1_000, ..Limits::default() };
     let large = renderer.features(&view, &RenderSettings { limits, ..SETTINGS() }, &features, num_channels);
     assert_eq!(large.unwrap_err().code(), "RENDER-MEMORY");
+}
+
+#[test]
+fn ids_of_many_labels_are_the_argmax_of_summed_weights() {
+    let scene = crowd(3_000, 20);
+    // 600 labels, the largest one and none among them.
+    let label = |idx: usize| if idx.is_multiple_of(3) { u16::MAX } else { (idx % 600) as u16 };
+    let labels: Vec<u16> = (0..scene.len()).map(label).collect();
+    let renderer = Renderer::new(&scene);
+    let view = camera(130, 70);
+    let ids = renderer.object_ids(&view, &SETTINGS(), &labels).unwrap();
+    let mut sums = vec![BTreeMap::<u16, f32>::new(); 130 * 70];
+    for weight in renderer.weights(&view, &SETTINGS()).unwrap() {
+        *sums[weight.pixel_idx as usize].entry(labels[weight.gaussian_idx as usize]).or_default() += weight.weight;
+    }
+    assert!(ids.ids.contains(&u16::MAX));
+    for (id, sums) in ids.ids.iter().zip(&sums) {
+        let largest = sums.values().copied().fold(0.0, f32::max);
+        assert!(sums.get(id).copied().unwrap_or_default() >= largest - 1e-6, "{id} of {sums:?}");
+    }
+}
+
+/// All outputs but color, as bits.
+fn all_outputs(scene: &Gaussians, settings: &RenderSettings) -> Vec<Vec<u64>> {
+    let (renderer, view) = (Renderer::new(scene), camera(150, 90));
+    let numbers = |num: usize| (0..num).map(|idx| (idx % 23) as f32 / 7.0).collect::<Vec<f32>>();
+    let bits = |values: &[f32]| values.iter().map(|value| u64::from(value.to_bits())).collect::<Vec<u64>>();
+    let wide_bits = |values: &[f64]| values.iter().map(|value| value.to_bits()).collect::<Vec<u64>>();
+    let labels: Vec<u16> = (0..scene.len()).map(|idx| (idx % 40) as u16).collect();
+    let depth = renderer.depth(&view, settings).unwrap();
+    let ids = renderer.object_ids(&view, settings, &labels).unwrap();
+    let features = renderer.features(&view, settings, &numbers(scene.len() * 11), 11).unwrap();
+    let weights = renderer.weights(&view, settings).unwrap();
+    let weight_bits = |weight: &PixelWeight| {
+        [u64::from(weight.pixel_idx), u64::from(weight.gaussian_idx), u64::from(weight.weight.to_bits())]
+    };
+    let mut lifted = LiftedValues::new(scene.len(), 3);
+    renderer.lift(&view, settings, &numbers(150 * 90 * 3), &mut lifted).unwrap();
+    vec![
+        bits(&depth.expected),
+        bits(&depth.median),
+        ids.ids.into_iter().map(u64::from).collect(),
+        bits(&features.values),
+        weights.iter().flat_map(weight_bits).collect(),
+        wide_bits(&lifted.sums),
+        wide_bits(&lifted.weights),
+    ]
+}
+
+#[test]
+fn every_output_has_the_same_bits_on_any_threads_and_instruction_set() {
+    let scene = crowd(2_000, 21);
+    for quality in [Quality::Standard, Quality::Final] {
+        let on = |num_threads: usize, instructions: InstructionSet| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(num_threads).build().unwrap();
+            let settings = RenderSettings { quality, instructions, ..RenderSettings::default() };
+            pool.install(|| all_outputs(&scene, &settings))
+        };
+        let scalar = on(1, InstructionSet::Scalar);
+        for (num_threads, instructions) in [
+            (1, InstructionSet::Widest),
+            (2, InstructionSet::Widest),
+            (7, InstructionSet::Widest),
+            (3, InstructionSet::Avx2),
+        ] {
+            let found = on(num_threads, instructions);
+            assert!(found == scalar, "{quality:?} {num_threads} {instructions:?}");
+        }
+    }
+}
+
+#[test]
+fn nan_inputs_stay_where_their_splat_or_pixel_is() {
+    let mut scene = Gaussians::default();
+    let round = Vec3::splat(0.3);
+    push(&mut scene, Vec3::new(-0.3, 0.0, 4.0), round, Quat::IDENTITY, (0.5, Vec3::X));
+    push(&mut scene, Vec3::new(0.3, 0.2, 3.0), round, Quat::IDENTITY, (0.5, Vec3::Y));
+    let renderer = Renderer::new(&scene);
+    let view = camera(200, 100);
+    let weights = renderer.weights(&view, &SETTINGS()).unwrap();
+    let held: BTreeSet<(u32, u32)> = weights.iter().map(|weight| (weight.pixel_idx, weight.gaussian_idx)).collect();
+    let map = renderer.features(&view, &SETTINGS(), &[f32::NAN, 1.0], 1).unwrap();
+    for (pixel, value) in (0..).zip(&map.values) {
+        assert_eq!(value.is_nan(), held.contains(&(pixel, 0)), "{pixel}");
+    }
+    let is_empty = |pixel: u32| !held.contains(&(pixel, 0)) && !held.contains(&(pixel, 1));
+    let values: Vec<f32> = (0..200 * 100).map(|pixel| if is_empty(pixel) { f32::NAN } else { 1.0 }).collect();
+    assert!(values.iter().any(|value| value.is_nan()));
+    let mut lifted = LiftedValues::new(2, 1);
+    renderer.lift(&view, &SETTINGS(), &values, &mut lifted).unwrap();
+    assert_eq!(lifted.sums, lifted.weights);
 }
 
 #[test]
