@@ -89,7 +89,7 @@
 //! |---|---|---|
 //! | composition | [`pipeline`], in this crate | all below but training |
 //! | training | `training` (feature `training`): sampler of sentences, dataset, training, exams | candle |
-//! | network | [`director`]: text encoder, Q-former, decoder; [`reader`]: a language model in its place (feature `reader`) | candle, tokenizers |
+//! | network | [`director`]: text encoder, Q-former, decoder; [`reader`]: a language model in its place (feature `reader`); [`vision`]: features of pictures (feature `vision`) | candle, tokenizers |
 //! | words | [`language`]: names, quantities, the notation of programs | |
 //! | taste | [`critic`]: looks at finished moves and chooses | |
 //! | exactness | [`operator`]: framing, visibility, clearance | |
@@ -138,5 +138,6 @@ pub use cinesplat_synth as synth;
 pub use cinesplat_training as training;
 pub use cinesplat_trajectory as trajectory;
 pub use cinesplat_video as video;
+pub use cinesplat_vision as vision;
 
 pub mod pipeline;

@@ -18,17 +18,18 @@ const ROWS: [&[&str]; 15] = [
     &["operator"],
     &["critic"],
     &["language"],
-    &["director", "reader"],
+    &["director", "reader", "vision"],
     &["training"],
     &["bench"],
     &["cinesplat"],
 ];
 
 /// Packages that some crates alone depend on.
-const OWNED: [(&[&str], &[&str]); 5] = [
+const OWNED: [(&[&str], &[&str]); 6] = [
     (&["clap", "anyhow", "indicatif", "ctrlc"], &["cinesplat"]),
-    (&["candle-core", "tokenizers"], &["director", "reader", "training"]),
-    (&["candle-nn"], &["director", "training"]),
+    (&["candle-core"], &["director", "reader", "training", "vision"]),
+    (&["tokenizers"], &["director", "reader", "training"]),
+    (&["candle-nn"], &["director", "training", "vision"]),
     (&["candle-transformers"], &["reader"]),
     (&["ffmpeg-next"], &["video"]),
 ];

@@ -33,3 +33,4 @@ mod synth;
 mod training;
 mod trajectory;
 mod video;
+mod vision;

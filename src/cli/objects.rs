@@ -5,12 +5,14 @@ use serde_json::{Value, json};
 
 use super::failure::{Exit, Failure};
 use super::outputs::Overwrite;
+use super::progress::FrameProgress;
 use super::scene_args::{SceneArgs, print_up};
 use super::{console, heading, masks, outputs, reproduce};
 use cinesplat::objects::{self, EditError, FindSettings, Object, ObjectSet, Renaming, SheetSettings};
 use cinesplat::pipeline;
 use cinesplat::scene::Scene;
 use cinesplat::video;
+use cinesplat::vision::Dino;
 
 /// Find or read the objects of a scene
 ///
@@ -22,6 +24,7 @@ Examples:
   cinesplat objects room.spz -o objects.json --sheet objects.html
   cinesplat objects room.spz --masks masks --cameras transforms.json -o objects.json
   cinesplat objects room.spz --objects objects.json --name 41=mug -o objects.json --overwrite
+  cinesplat objects room.spz --dino dinov2-small -o objects.json
   cinesplat objects room.spz --objects objects.json --merge 3,7,8 --drop 41,42 -o objects.json --overwrite
 A prompt can then say \"the mug\"; <obj-41> always works.")]
 pub(super) struct Args {
@@ -72,6 +75,12 @@ pub(super) struct Args {
     /// Write a sheet of every object with its id, its surroundings dimmed: PNG or HTML
     #[arg(long, value_name = "SHEET", help_heading = heading::OUTPUT)]
     sheet: Option<PathBuf>,
+    /// Store what a DINOv2 sees at the points of each object: a folder with its config.json and model.safetensors
+    ///
+    /// As `transformers` stores a `Dinov2Model`. The objects are rendered from all around; the features of each point are averaged
+    /// over these pictures and stored as ID.dino beside its cloud, for other programs: the director was trained without them.
+    #[arg(long, value_name = "DIR", help_heading = heading::OUTPUT, hide_short_help = true)]
+    dino: Option<PathBuf>,
     /// Print one JSON list instead of a table
     #[arg(long, help_heading = heading::OUTPUT)]
     json: bool,
@@ -84,6 +93,7 @@ impl Args {
         self.check_outputs()?;
         let names = self.names()?;
         self.check_kept()?;
+        let dino = self.dino.as_deref().map(Dino::load).transpose()?;
         let (scene, mut set) = self.open()?;
         self.edit(&scene, &mut set)?;
         objects::rename(&mut set, &names).map_err(|id| no_such_object(id, &set))?;
@@ -95,7 +105,10 @@ impl Args {
             self.write_sheet(path, &scene, &set)?;
         }
         if let Some(path) = &self.output {
-            pipeline::prepare_objects(&scene, &mut set)?;
+            match &dino {
+                Some(dino) => describe_points(&scene, &mut set, dino)?,
+                None => pipeline::prepare_objects(&scene, &mut set)?,
+            }
             if outputs::is_stdout(path) {
                 console::data(&objects::to_json(path, &set, &scene, objects::Sidecars::default()))?;
             } else {
@@ -146,6 +159,13 @@ impl Args {
             ("--merge", !self.merge.is_empty()),
             ("--drop", !self.drop.is_empty()),
         ];
+        if self.dino.is_some() && self.output.as_deref().is_none_or(outputs::is_stdout) {
+            let found = "--dino without a file to write, expected -o OBJECTS.JSON".to_owned();
+            return Err(Failure::usage(
+                found,
+                "add -o objects.json: features are stored in the file of clouds beside it",
+            ));
+        }
         let is_kept = self.output.is_some() || self.sheet.is_some() || self.json;
         match edits.iter().find(|(_, is_given)| *is_given && !is_kept) {
             Some((flag, _)) => {
@@ -232,6 +252,14 @@ impl Args {
         console::note(&format!("{}: picture of every object", path.display()));
         Ok(())
     }
+}
+
+/// Gives the points of all objects their features, with progress.
+fn describe_points(scene: &Scene, set: &mut ObjectSet, dino: &Dino) -> Result<(), Failure> {
+    let mut progress = FrameProgress::of_objects();
+    let described = pipeline::describe_points(scene, set, dino, &mut |done, total| progress.show(done, total));
+    progress.finish();
+    Ok(described?)
 }
 
 /// A sheet is a picture or a page; another name would hold bytes that its programs do not read.

@@ -31,6 +31,11 @@ impl FrameProgress {
         Self::of(["mask", "masks/s"])
     }
 
+    /// Progress of objects whose points are described.
+    pub(super) fn of_objects() -> Self {
+        Self::of(["object", "objects/s"])
+    }
+
     fn of(names: [&'static str; 2]) -> Self {
         let start = Instant::now();
         Self { names, bar: console::is_watched().then(|| new_bar(names)), start, last_line: start }

@@ -10,7 +10,7 @@ use rayon::prelude::*;
 use super::candidates::candidates;
 use super::error::ObjectsError;
 use super::kept_points::keep;
-use super::object::{Object, ObjectSet};
+use super::object::{Object, ObjectSet, PointFeatures};
 use super::radius_search::RadiusOptimizer;
 use super::sampling::{PointSampler, border_points, farthest_points, in_canonical_order, uniform_points, voxel_points};
 use super::silhouettes::{Fit, Silhouettes};
@@ -91,6 +91,7 @@ pub fn fill_clouds_of(
     let is_missing = |object: &&mut Object| object.points.is_empty() && ids.contains(&object.id);
     let missing: Vec<&mut Object> = set.objects.iter_mut().filter(is_missing).collect();
     missing.into_par_iter().try_for_each(|object| {
+        object.features = PointFeatures::default();
         let members = members.get(&object.id).map_or(&[][..], Vec::as_slice);
         let gaussians = near_box(&scene.gaussians, members, object);
         if gaussians.is_empty() {
@@ -110,7 +111,7 @@ struct Cloud {
 }
 
 /// The Gaussians of an object in canonical order, without floaters and duplicates.
-fn near_box(gaussians: &Gaussians, members: &[usize], object: &Object) -> Gaussians {
+pub(crate) fn near_box(gaussians: &Gaussians, members: &[usize], object: &Object) -> Gaussians {
     let margin = FLOATER_FRAC * object.radius();
     let near = |&i: &usize| object.contains(gaussians.mean_world(i), margin);
     let mut chosen: Vec<usize> = members.iter().copied().filter(near).collect();

@@ -7,7 +7,7 @@ use std::collections::BTreeSet;
 use thiserror::Error;
 
 use super::boxes;
-use super::object::{Object, ObjectSet};
+use super::object::{Object, ObjectSet, PointFeatures};
 use cinesplat_scene::Scene;
 
 /// Why objects cannot be joined or taken out.
@@ -53,6 +53,7 @@ pub fn merge(scene: &Scene, set: &mut ObjectSet, ids: &[u32]) -> Result<(), Edit
         object.take_box(&fitted);
         object.num_gaussians = members.len();
         object.points.clear();
+        object.features = PointFeatures::default();
         (object.shape_radius, object.mask_iou) = (0.0, 0.0);
     }
     Ok(())

@@ -66,7 +66,7 @@ pub enum ObjectsError {
         expected: String,
     },
     /// The clouds file is no `safetensors` file, or a cloud in it is no list of points.
-    #[error("{}: clouds: found {found}, expected tensors ID.points of N x 3 finite numbers (F32 or F64)", path.display())]
+    #[error("{}: clouds: found {found}, expected tensors ID.points of N x 3 finite numbers (F32 or F64), and ID.dino of N rows (F32)", path.display())]
     BadClouds {
         /// The clouds file.
         path: PathBuf,

@@ -12,7 +12,7 @@ use serde_json::{Map, Value};
 use super::boxes;
 use super::clouds_file;
 use super::error::ObjectsError;
-use super::object::{Object, ObjectSet};
+use super::object::{Object, ObjectSet, PointFeatures};
 use cinesplat_files::{Limits, UnknownKeys, beside, json_excess, npy};
 use cinesplat_scene::Scene;
 
@@ -300,6 +300,7 @@ fn file_object(path: &Path, position: usize, value: &Value) -> Result<FileObject
         num_gaussians: 0,
         parent: entry.parent()?,
         points: entry.points()?,
+        features: PointFeatures::default(),
         shape_radius: entry.amount("shape_radius")?,
         mask_iou: entry.amount("mask_iou")?,
     };
@@ -344,12 +345,12 @@ fn check_parents(path: &Path, objects_in_file: &[FileObject]) -> Result<(), Obje
     Ok(())
 }
 
-/// Adds the points of the clouds file to the objects that state none themselves.
+/// Adds the points of the clouds file, and their features, to the objects that state no points themselves.
 fn add_clouds(top: &Entry, objects_in_file: &mut [FileObject]) -> Result<(), ObjectsError> {
     let Some(name) = top.text("clouds")? else { return Ok(()) };
-    let clouds = clouds_file::read(&beside(top.path, name))?;
-    for entry in objects_in_file.iter_mut().filter(|entry| entry.object.points.is_empty()) {
-        entry.object.points = clouds.get(&entry.object.id).cloned().unwrap_or_default();
+    let mut clouds = clouds_file::read(&beside(top.path, name))?;
+    for FileObject { object, .. } in objects_in_file.iter_mut().filter(|entry| entry.object.points.is_empty()) {
+        (object.points, object.features) = clouds.remove(&object.id).unwrap_or_default();
     }
     Ok(())
 }

@@ -2,8 +2,8 @@
 //!
 //! Enters: a scene, and optionally boxes or labels. Leaves: an [`ObjectSet`]. Objects are found ([`find()`]), read from
 //! a file ([`read()`]) or assembled from labels ([`from_labels`]), which masks of posed images give ([`lift_masks`]).
-//! [`fill_clouds`] computes the clouds that the director takes as input, and [`sheet()`] draws a contact sheet of all
-//! objects.
+//! [`fill_clouds`] computes the clouds that the director takes as input, [`fill_features`] describes their points by what a
+//! network sees in pictures of them, and [`sheet()`] draws a contact sheet of all objects.
 
 mod absorbing;
 mod agreement;
@@ -19,6 +19,7 @@ mod closer;
 mod cloud;
 mod clouds_file;
 mod color;
+mod crop;
 mod cutting;
 pub mod delaunay;
 mod drawing;
@@ -39,6 +40,7 @@ mod loose;
 mod mask;
 mod median;
 mod naming;
+mod near_gaussians;
 mod neighbors;
 mod object;
 mod open_background;
@@ -50,6 +52,7 @@ mod person;
 mod photo;
 mod pieces;
 mod planes;
+mod point_features;
 pub mod radius_search;
 mod relief;
 mod renaming;
@@ -88,7 +91,8 @@ pub use find::{find, from_labels};
 pub use lifting::{LiftedLabels, PosedMask, lift_masks, read_mask};
 pub use lone::only_whole;
 pub use naming::is_description;
-pub use object::{Object, ObjectSet};
+pub use object::{Object, ObjectSet, PointFeatures};
+pub use point_features::{Describe, FeatureSettings, fill_features};
 pub use renaming::{Renaming, rename, typed_id};
 pub use sampling::PointSampler;
 pub use settings::FindSettings;

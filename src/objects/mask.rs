@@ -40,6 +40,16 @@ impl Mask {
         self.inside.iter().filter(|inside| **inside).count()
     }
 
+    /// The sides of the smallest rectangle of pixels around the covered ones: left, top, right, bottom; `None` where there are
+    /// none.
+    pub(crate) fn bounds(&self) -> Option<[usize; 4]> {
+        let covered = (0..self.inside.len()).filter(|&pixel| self.inside[pixel]);
+        covered.map(|pixel| [pixel % self.size, pixel / self.size]).fold(None, |bounds, [x, y]| {
+            let [left, top, right, bottom] = bounds.unwrap_or([x, y, x + 1, y + 1]);
+            Some([left.min(x), top.min(y), right.max(x + 1), bottom.max(y + 1)])
+        })
+    }
+
     /// Whether a pixel is covered; pixels beyond the border are not.
     pub(crate) fn at(&self, x: i64, y: i64) -> bool {
         let size = self.size as i64;

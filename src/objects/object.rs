@@ -24,6 +24,8 @@ pub struct Object {
     pub parent: Option<u32>,
     /// Sparse cloud: points on its silhouettes, world.
     pub points: Vec<DVec3>,
+    /// Features of the points; empty unless they were asked for.
+    pub features: PointFeatures,
     /// Radius of the alpha shapes of the cloud, scene units; 0 without a cloud.
     pub shape_radius: f64,
     /// Mean overlap (intersection over union) of the alpha shapes and the rendered masks, 0..=1; 0 without a cloud.
@@ -42,6 +44,7 @@ impl Object {
             num_gaussians: 0,
             parent: None,
             points: Vec::new(),
+            features: PointFeatures::default(),
             shape_radius: 0.0,
             mask_iou: 0.0,
         }
@@ -87,6 +90,15 @@ impl Object {
             if is_labelled { labels.get(i).is_some_and(is_own) } else { self.contains(center, margin) }
         }
     }
+}
+
+/// What a network for pictures tells about the points of a cloud.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct PointFeatures {
+    /// Numbers per point; 0 where there are none.
+    pub num_channels: usize,
+    /// `[point * num_channels + channel]`, in the order of the object's points. A point that no picture shows has zeros.
+    pub values: Vec<f32>,
 }
 
 /// All objects of a scene, and the object of every Gaussian.

@@ -11,6 +11,7 @@ use cinesplat_render::RenderError;
 use cinesplat_scene::SceneError;
 use cinesplat_trajectory::TrajectoryError;
 use cinesplat_video::VideoError;
+use cinesplat_vision::VisionError;
 
 /// Error of a stage, or of settings that do not fit together.
 #[derive(Debug, Error)]
@@ -45,6 +46,9 @@ pub enum PipelineError {
     /// The film cannot be written.
     #[error(transparent)]
     Video(#[from] VideoError),
+    /// The network for pictures cannot describe one.
+    #[error(transparent)]
+    Vision(#[from] VisionError),
     /// The job folder of a film cannot be used.
     #[error(transparent)]
     Job(#[from] JobError),
@@ -88,6 +92,7 @@ impl PipelineError {
             Self::Export(error) => error.code(),
             Self::Render(error) => error.code(),
             Self::Video(error) => error.code(),
+            Self::Vision(error) => error.code(),
             Self::Job(error) => error.code(),
             Self::UnknownSynth { .. } => "SCENE-SYNTH",
             Self::NoSuchFrames { .. } => "SHOT-FRAMES",

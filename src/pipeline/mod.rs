@@ -25,6 +25,7 @@ mod lone_thing;
 mod opened_scene;
 mod panic_point;
 mod phases;
+mod point_features;
 mod promise;
 mod reading;
 mod said_parts;
@@ -55,6 +56,7 @@ pub use job::{
 };
 pub use opened_scene::{OpenedScene, open_scene};
 pub use phases::{Phase, PhaseTimes};
+pub use point_features::describe_points;
 pub use promise::{Pace, PathProfile, Promise};
 pub use reading::{Problem, ProblemKind, Reading, read};
 pub use stills::{Still, StillOutputs, still};

@@ -108,6 +108,37 @@ fn short_help_fits_on_a_screen_and_long_help_says_more() {
 }
 
 #[test]
+fn features_of_points_are_stored_beside_their_clouds_when_asked_for() {
+    let folder = tempfile::tempdir().unwrap();
+    let dino = fs::canonicalize("tests/vision/dino").unwrap();
+    let dino = dino.to_str().unwrap();
+    data(folder.path(), &["objects", SMALL_SCENE, "-o", "without.json"]);
+    data(folder.path(), &["objects", SMALL_SCENE, "--dino", dino, "-o", "with.json"]);
+    // Kept where a file is read and written again.
+    data(folder.path(), &["objects", SMALL_SCENE, "--objects", "with.json", "--name", "1=pane", "-o", "again.json"]);
+    let bytes = |name: &str| fs::read(folder.path().join(name).with_extension("clouds.safetensors")).unwrap();
+    let (without, with) = (bytes("without"), bytes("with"));
+    assert!(with == bytes("again"), "other features after reading and writing");
+    let tensors = |bytes| safetensors::SafeTensors::deserialize(bytes).unwrap();
+    let (without, with) = (tensors(&without), tensors(&with));
+    for name in without.names() {
+        let (id, points) = (name.strip_suffix(".points").unwrap(), without.tensor(name).unwrap());
+        assert!(points.data() == with.tensor(name).unwrap().data(), "{name}");
+        assert_eq!(with.tensor(&format!("{id}.dino")).unwrap().shape(), [points.shape()[0], 32]);
+    }
+    insta::assert_snapshot!(answer(folder.path(), &["objects", SMALL_SCENE, "--dino", dino]), @r"
+    exit 2
+    error[USAGE]: --dino without a file to write, expected -o OBJECTS.JSON
+    help: add -o objects.json: features are stored in the file of clouds beside it
+    ");
+    insta::assert_snapshot!(answer(folder.path(), &["objects", SMALL_SCENE, "--dino", "none", "-o", "o.json"]), @r"
+    exit 66
+    error[FILE-READ]: none/config.json: cannot read: No such file or directory (os error 2)
+    help: check the path
+    ");
+}
+
+#[test]
 fn info_prints_the_same_facts_as_text_and_json() {
     let folder = tempfile::tempdir().unwrap();
     let info: serde_json::Value = serde_json::from_str(&data(folder.path(), &["info", SMALL_SCENE, "--json"])).unwrap();

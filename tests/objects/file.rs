@@ -183,6 +183,52 @@ fn an_object_is_one_line_and_its_cloud_is_beside_the_file() {
 }
 
 #[test]
+fn features_of_points_are_beside_them_and_must_fit_them() {
+    let scene = four();
+    let mut set = objects::from_labels(&scene, vec![1, 1, 2, 2]);
+    let folder = TempDir::new().unwrap();
+    let (path, clouds) = (folder.path().join("o.json"), folder.path().join("o.clouds.safetensors"));
+    for object in &mut set.objects {
+        object.points = vec![DVec3::X, DVec3::Y];
+    }
+    objects::write(&path, &set, &scene, Existing::Keep).unwrap();
+    let without = std::fs::read(&clouds).unwrap();
+    set.objects[1].features = objects::PointFeatures { num_channels: 3, values: vec![0.5, -1.0, 2.0, 0.25, 8.0, 1e-9] };
+    objects::write(&path, &set, &scene, Existing::Replace).unwrap();
+    assert_eq!(objects::read(&path, &scene).unwrap().set.objects, set.objects);
+    let with = safetensors::SafeTensors::deserialize(&std::fs::read(&clouds).unwrap()).unwrap().names().len();
+    assert_eq!(with, 3, "1.points, 2.points and 2.dino");
+    objects::merge(&scene, &mut set, &[2, 1]).unwrap();
+    assert_eq!(set.objects[0].features, objects::PointFeatures::default());
+    // A byte of the name or of the shape makes it the features of another object, or of another number of points.
+    let damaged = |from: &str, to: &str| {
+        write_features(&path, &scene);
+        let bytes = std::fs::read(&clouds).unwrap();
+        let at = bytes.windows(from.len()).position(|window| window == from.as_bytes()).unwrap();
+        std::fs::write(&clouds, [&bytes[..at], to.as_bytes(), &bytes[at + from.len()..]].concat()).unwrap();
+        objects::read(&path, &scene).unwrap_err().to_string().replace(&folder.path().display().to_string(), "DIR")
+    };
+    let told = [damaged("2.dino", "7.dino"), damaged("[2,6]", "[6,2]")];
+    insta::assert_snapshot!(told.join("\n"), @r"
+    DIR/o.clouds.safetensors: clouds: found 7.dino without 7.points, expected tensors ID.points of N x 3 finite numbers (F32 or F64), and ID.dino of N rows (F32)
+    DIR/o.clouds.safetensors: clouds: found 2.dino: F32 [6, 2], expected tensors ID.points of N x 3 finite numbers (F32 or F64), and ID.dino of N rows (F32)
+    ");
+    std::fs::write(&clouds, without).unwrap();
+    let again = objects::read(&path, &scene).unwrap().set;
+    assert!(again.objects.iter().all(|object| object.features == objects::PointFeatures::default()));
+}
+
+/// Writes two objects of two points, the second with six features per point.
+fn write_features(path: &std::path::Path, scene: &Scene) {
+    let mut set = objects::from_labels(scene, vec![1, 1, 2, 2]);
+    for object in &mut set.objects {
+        object.points = vec![DVec3::X, DVec3::Y];
+    }
+    set.objects[1].features = objects::PointFeatures { num_channels: 6, values: vec![0.5; 12] };
+    objects::write(path, &set, scene, Existing::Replace).unwrap();
+}
+
+#[test]
 fn the_gaussians_of_parts_belong_to_their_whole() {
     let text = r#"{"objects":[{"id":1,"center":[0,0,0],"half_extents":[1.5,1,1]},{"id":2,"parent":1,"center":[1,0,0],"half_extents":[0.2,1,1]}]}"#;
     let set = read_text(text, &four()).unwrap().set;

@@ -12,6 +12,7 @@ mod find;
 mod find_touching;
 mod lifting;
 mod naming;
+mod point_features;
 mod radius_search;
 mod renaming;
 mod sheet;

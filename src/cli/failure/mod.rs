@@ -21,6 +21,7 @@ mod scene;
 #[cfg(feature = "training")]
 mod training;
 mod video;
+mod vision;
 
 pub(super) use exit::Exit;
 pub(super) use message::Failure;

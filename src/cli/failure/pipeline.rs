@@ -19,6 +19,7 @@ impl From<PipelineError> for Failure {
             PipelineError::Export(error) => return error.into(),
             PipelineError::Render(error) => return error.into(),
             PipelineError::Video(error) => return error.into(),
+            PipelineError::Vision(error) => return error.into(),
             PipelineError::Job(error) => return error.into(),
             PipelineError::UnknownSynth { .. } => {
                 (Exit::NoInput, "name one such as synth:room:7, or write ./ before the name of a file")
