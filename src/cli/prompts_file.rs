@@ -61,14 +61,18 @@ fn parse(text: &str) -> Result<Vec<NamedPrompt>, String> {
     Ok(prompts)
 }
 
-/// The output of one prompt: `{}` in the path is its name.
+/// The output of one prompt: `{}` in the path is its name. Its folder is created.
 pub(super) fn output_of(path: &Path, name: &str) -> Result<PathBuf, Failure> {
     let text = path.to_string_lossy();
     if !text.contains(PLACEHOLDER) {
         let found = format!("{text}: one name for all prompts of a file, expected {PLACEHOLDER} where the names go");
         return Err(Failure::usage(found, format!("write -o films/{PLACEHOLDER}.mp4 or -o shots/{PLACEHOLDER}.json")));
     }
-    Ok(PathBuf::from(text.replace(PLACEHOLDER, name)))
+    let path = PathBuf::from(text.replace(PLACEHOLDER, name));
+    if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        cinesplat::files::create_folder(folder)?;
+    }
+    Ok(path)
 }
 
 /// Runs `work` for every prompt. A failure is reported and the next prompt follows; a stop by the user ends the loop.

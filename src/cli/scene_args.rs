@@ -15,7 +15,7 @@ use cinesplat::scene::{Limits, LoadOptions, SURE_PERCENT, Scene, SplatFilter, Up
 /// A scene and the options for reading it.
 #[derive(Debug, Clone, Args)]
 pub(super) struct SceneArgs {
-    /// Scene file (.ply .spz .sog .splat), SOG folder, or synth:demo
+    /// Scene file (.ply .spz .sog .splat .ksplat .glb .pcd), SOG folder, or synth:demo
     ///
     /// Generated scenes are synth:demo, synth:room:SEED and synth:tabletop:SEED, with an optional share of the full
     /// number of Gaussians, such as synth:room:7:0.2.

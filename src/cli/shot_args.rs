@@ -14,7 +14,7 @@ use cinesplat::objects::{self, Object, ObjectSet};
 use cinesplat::operator::SolveLevel;
 use cinesplat::pipeline::{self, DirectSettings, Directed, FilmChoice, Interpreter};
 use cinesplat::scene::Scene;
-use cinesplat::trajectory::{Shot, retimed};
+use cinesplat::trajectory::{ReportLine, Shot, retimed};
 
 /// How `plan` and `render` make a shot.
 #[derive(Debug, Clone, Args)]
@@ -77,7 +77,7 @@ impl ShotArgs {
         let settings = DirectSettings {
             width,
             height,
-            rate_fps: self.fps.unwrap_or(30.0),
+            rate_fps: self.fps.unwrap_or_else(|| stated_rate(prompt)),
             duration_secs: self.duration,
             seed: self.seed.unwrap_or(0),
             solve: self.solve.level,
@@ -138,7 +138,11 @@ pub(super) fn read_file(path: &Path, objects: &[Object]) -> Result<Shot, Failure
     let text = outputs::read_text(path)?;
     let find = |name: &str| match objects {
         [] => Err("a point, or an object of --objects OBJECTS.JSON".to_owned()),
-        _ => objects::named(objects, name).map(|object| object.center),
+        _ => objects::named(objects, name).map(|object| object.center).map_err(|expected| {
+            let is_unnamed = objects.iter().all(|object| objects::is_description(&object.label));
+            let hint = if is_unnamed { " (names that you gave are read with --objects OBJECTS.JSON)" } else { "" };
+            format!("{expected}{hint}")
+        }),
     };
     let read = shot_json::read_in(&text, &find).map_err(|error| Failure::from(error).in_file(path))?;
     console::file_warnings(path, &read.notes);
@@ -189,7 +193,18 @@ fn print_gaps(directed: &Directed) {
     print_effects(&directed.effects);
     let is_effect = |clause: &str| directed.effects.unmet.iter().any(|unmet| unmet.call.because == clause);
     for line in directed.shot.report.iter().filter(|line| !line.met && !is_effect(&line.clause)) {
-        console::note(&format!("not met: {}: wanted {}, got {:.3}: {}", line.clause, line.wanted, line.got, line.note));
+        console::note(&not_met(line));
+    }
+}
+
+/// What a line of the report says that is not met: of words that lead to nothing there is nothing to measure.
+fn not_met(line: &ReportLine) -> String {
+    let ReportLine { clause, wanted, got, note, .. } = line;
+    let is_measured = *got != 0.0 || wanted.contains(|c: char| c.is_ascii_digit());
+    match (is_measured, note.is_empty()) {
+        (true, _) => format!("not met: {clause}: wanted {wanted}, got {got:.3}: {note}"),
+        (false, true) => format!("not met: \"{clause}\" is not {wanted}"),
+        (false, false) => format!("not met: \"{clause}\": {note}"),
     }
 }
 
@@ -225,6 +240,13 @@ fn stated_size(prompt: &str, objects: &ObjectSet) -> (u32, u32) {
     };
     console::note(&format!("frame: {width}x{height}, because of \"{words}\" (--size overrules)"));
     (width, height)
+}
+
+/// The frame rate that a prompt states, with a note; the default where it states none.
+fn stated_rate(prompt: &str) -> f64 {
+    let Some((rate_fps, words)) = pipeline::stated_rate(prompt) else { return DirectSettings::default().rate_fps };
+    console::note(&format!("{rate_fps} frames per second, because of \"{words}\" (--fps overrules)"));
+    rate_fps
 }
 
 pub(super) fn parse_size(text: &str) -> Result<(u32, u32), String> {

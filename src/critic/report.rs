@@ -7,8 +7,11 @@ use super::resolution::{MAX_SPLAT_FRAC, holds_to};
 use super::review::Review;
 use super::terms::Weights;
 
-/// Lines on the limits, the sharpness and the choice among `num_films`. Sharpness never counts as a requirement that was
-/// not met: a stated size stays the stated size.
+/// Size of splats, over that at which a picture holds, from which on even a picture of a stated size shows nothing but paint.
+const PAINT: f64 = 4.0;
+
+/// Lines on the limits, the sharpness and the choice among `num_films`. A stated size stays the stated size; where it shows nothing but
+/// paint, the line is not met.
 pub fn report_lines(review: &Review, size_px: [u32; 2], num_films: usize) -> Vec<ReportLine> {
     let limits = review.limits.iter().map(limit_line);
     let sharpness = review.coarsest.map(|coarsest| sharpness_line(coarsest, size_px[1]));
@@ -51,9 +54,9 @@ fn sharpness_line((splat_px, height_frac): (f64, Option<f64>), film_height_px: u
     };
     ReportLine {
         clause: "picture: sharpness".to_owned(),
-        wanted: format!("splats of at most {most:.0} px, where the size is open"),
+        wanted: format!("splats of at most {most:.0} px where the size is open, {:.0} px elsewhere", PAINT * most),
         got: splat_px,
-        met: true,
+        met: splat_px <= PAINT * most,
         note,
     }
 }

@@ -116,7 +116,10 @@ fn link_whole(prompt: &str, (places, whole): (Places<'_>, &Object), found: &mut 
         let Some(phrase) = ALL.iter().find(says) else { continue };
         let bytes = [words[at].span[0], words[at + phrase.len() - 1].span[1]];
         let last = found.iter().rev().find(|found| found.mention.bytes[1] <= bytes[0]);
-        if last.is_some_and(|last| matches!(last.mention.ids[..], [id] if is_part(id))) && !is_linked(found, bytes) {
+        let is_of_part = last.is_some_and(|last| matches!(last.mention.ids[..], [id] if is_part(id)));
+        if is_of_part {
+            // `It` was linked to the part.
+            found.retain(|found| !(bytes[0]..bytes[1]).contains(&found.mention.bytes[0]));
             insert_mention(found, Mention { bytes, ids: vec![whole.id] });
         }
     }

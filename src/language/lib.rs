@@ -99,6 +99,7 @@ mod error;
 #[cfg(test)]
 mod fixture;
 mod forbidding;
+mod frame_rate;
 mod frame_shape;
 mod heights;
 mod idioms;
@@ -139,6 +140,7 @@ pub use edit_distance::edit_distance;
 pub use effects::{DUTCH_ANGLE, EffectMention, are_effect_phrases, effect_mentions, without_camera_settings};
 pub use error::LanguageError;
 pub use forbidding::forbidding_words;
+pub use frame_rate::{FrameRate, frame_rate};
 pub use frame_shape::{FrameShape, frame_shape, without_frame_shape};
 pub use heights::SpokenHeight;
 pub use inflection::{VerbForm, inflect, stem};
@@ -155,7 +157,7 @@ pub use notation::{
 };
 pub use numbered::{NumberedMention, numbered_mention_at};
 pub use numerals::number_word;
-pub use plain::{mend_names, plain_words};
+pub use plain::{is_foreign, mend_names, plain_words};
 pub use quantity::{Quantity, QuantityKind};
 pub use rates::Rate;
 pub use scenery::scenery;

@@ -15,6 +15,7 @@ use super::posture::posture_cost;
 use super::underside::underside_cost;
 use super::vertigo::vertigo_cost;
 use super::world::World;
+use cinesplat_geometry::sphere_directions;
 use cinesplat_trajectory::{CameraPath, CameraState, Easing};
 
 /// Limit on the path intervals that branch and bound examines per candidate.
@@ -120,7 +121,28 @@ fn region_cost(world: &World, states: &[CameraState]) -> f64 {
         upright.max(level - OUTSIDE_FRAC)
     });
     let far = if world.is_indoor() { outside } else { sunk };
-    3.0 * wrong as f64 + (8.0 * far).clamp(0.0, 2.0)
+    3.0 * wrong as f64 + (8.0 * far).clamp(0.0, 2.0) + enclosed_cost(world, states)
+}
+
+/// Rays from a camera, and the share of them that meet matter from which on it is inside a lone thing: half of them do right before it.
+const NUM_ENCLOSING: usize = 24;
+const ENCLOSED_FRAC: f64 = 0.7;
+/// Cost of ends of a segment that are inside a lone thing.
+const ENCLOSED_COST: f64 = 6.0;
+
+/// Cost of ends of a segment inside a lone thing: the inside of a skull was not captured.
+fn enclosed_cost(world: &World, states: &[CameraState]) -> f64 {
+    if world.is_indoor() {
+        return 0.0;
+    }
+    let is_enclosed = |state: &&&CameraState| {
+        let position = state.pose.position;
+        let within = position.cmpge(world.bounds.core_min).all() && position.cmple(world.bounds.core_max).all();
+        let meets = |ray: &DVec3| world.hit_distance(position, *ray).is_some();
+        let met = || sphere_directions(NUM_ENCLOSING).iter().filter(|ray| meets(ray)).count();
+        within && met() as f64 >= ENCLOSED_FRAC * NUM_ENCLOSING as f64
+    };
+    ENCLOSED_COST * [&states[0], &states[states.len() - 1]].iter().filter(is_enclosed).count() as f64
 }
 
 /// Level distance from the core box of a room, over the scene size, from which a camera in the captured region is far

@@ -76,8 +76,15 @@ fn free_elevation_deg(world: &World, target: &Target, parameter: f64, proposed: 
     usual + beyond
 }
 
+/// Range of the height of the subject over the frame's from which a close-up of a thing is taken: hardly more than all of it, because
+/// people want to see what it is.
+const CLOSE_UP: (f64, f64) = (1.03, 1.2);
+
 /// The fill for a shot size: a parameter in 0..1 selects from the inner part of the size's range.
 pub(super) fn size_fill(size: ShotSize, parameter: f64) -> Fill {
+    if size == ShotSize::CloseUp {
+        return Fill::Height(lerp(CLOSE_UP, parameter));
+    }
     let (low, high) = size.height_band_frac();
     let high = high.min(2.0);
     Fill::Height(lerp((low * 0.93 + high * 0.07, low * 0.2 + high * 0.8), parameter))

@@ -6,7 +6,7 @@ use super::interpreter::{Interpreter, names};
 use super::phases::{Phase, PhaseTimes};
 use super::reading::{Problem, Reading, read};
 use super::slant::{level_out, slant_of};
-use super::{few_things, guessed_things, lone_thing};
+use super::{few_things, guessed_things, lone_thing, other_kinds};
 use cinesplat_critic::Subjects;
 use cinesplat_director::{Direction, Director, SceneContext};
 use cinesplat_language::{DUTCH_ANGLE, EffectMention, LanguageError, Linked, forbidding_words};
@@ -157,6 +157,7 @@ pub fn direct(
         times.measure(Phase::Direct, || lone_thing::link(&interpreter.director, said, objects, scene))?;
     named.iter().for_each(|named| named.warn(&mut linked));
     guessed_things::take_guesses(&mut linked, found, up);
+    other_kinds::warn(said, &mut linked, &objects);
     linked.name_what_stands(prompt, &|id| objects.things_on(id, up));
     let objects = times.measure(Phase::Objects, || with_clouds(scene, &objects, &linked))?;
     let bounds = scene.bounds();
@@ -167,7 +168,7 @@ pub fn direct(
     refuse_missing(&linked, &direction)?;
     level_with_things(&mut direction.program, &objects, up);
     level_out(&effects, &mut direction.program, prompt);
-    lone_thing::show(&mut direction.program, &objects);
+    lone_thing::show(prompt, &mut direction.program, &objects);
     let model = Some(interpreter.model_ref());
     film(
         (scene, &objects),
@@ -304,6 +305,13 @@ pub fn stated_size<'a>(prompt: &'a str, objects: &ObjectSet) -> Option<([u32; 2]
     let shape = cinesplat_language::frame_shape(prompt, &names(&objects.objects))?;
     let [start, end] = shape.bytes;
     Some((shape.size_px(DirectSettings::default().height), prompt.get(start..end).unwrap_or_default()))
+}
+
+/// The frame rate that a prompt states, frames per second, and the words that state it.
+pub fn stated_rate(prompt: &str) -> Option<(f64, &str)> {
+    let rate = cinesplat_language::frame_rate(prompt)?;
+    let [start, end] = rate.bytes;
+    Some((rate.fps, prompt.get(start..end).unwrap_or_default()))
 }
 
 /// The objects; those that the network reads have clouds.

@@ -42,7 +42,7 @@ impl Named {
 pub(super) fn taken_for(noun: &str, ids: &[u32]) -> String {
     let words: Vec<String> = ids.iter().take(3).map(|id| format!("<obj-{id}>")).collect();
     let more = if ids.len() > 3 { " .." } else { "" };
-    format!("\"{noun}\" is taken for {}{more}, because the things of this scene have no names", words.join(" "))
+    format!("\"{noun}\" is taken for {}{more}, because nothing in this scene has that name", words.join(" "))
 }
 
 /// The objects with new labels, those that are alike with numbers.

@@ -57,10 +57,17 @@ pub(super) fn named(prompt: &str, objects: &ObjectSet, up: DVec3) -> Option<Name
     let mut labels: Vec<(u32, String)> = Vec::new();
     let mut nouns: Vec<(String, Vec<u32>)> = Vec::new();
     let mut is_taken = [false; 4];
+    let named = |object: &&Object| !is_guess(&object.label);
+    let given = objects.objects.iter().filter(named).flat_map(|object| tokenize(&object.label));
+    let given: Vec<String> = given.map(|word| word.stem).collect();
     for at in 0..words.len() {
         let noun = &words[at];
         let is = |list: &str| is_listed(list, &noun.stem) || is_listed(list, &noun.text);
         let Some(class) = [COUNTERS, SHELVES, CUPBOARDS, SMALL].iter().position(|list| is(list)) else { continue };
+        // What a person has called so is meant by it.
+        if given.contains(&noun.stem) {
+            continue;
+        }
         // `On the table`, and nothing that opens: `the kitchen counter top`.
         if std::mem::replace(&mut is_taken[class], true) {
             continue;
@@ -75,7 +82,7 @@ pub(super) fn named(prompt: &str, objects: &ObjectSet, up: DVec3) -> Option<Name
             2 => scan.fronts(),
             _ => scan.shelved(),
         };
-        let is_free = |object: &&Object| !labels.iter().any(|(id, _)| *id == object.id);
+        let is_free = |object: &&Object| is_guess(&object.label) && !labels.iter().any(|(id, _)| *id == object.id);
         let new: Vec<(u32, String)> = things
             .into_iter()
             .filter(is_free)
@@ -143,7 +150,7 @@ impl<'a> Scan<'a> {
 
     fn is_guessed(&self) -> bool {
         let roots = || self.objects.iter().filter(|object| object.parent.is_none());
-        let guessed = roots().filter(|object| is_description(&object.label) || is_bound(&object.label)).count();
+        let guessed = roots().filter(|object| is_guess(&object.label)).count();
         let num = roots().count();
         num >= FEWEST && guessed as f64 >= GUESSED_FRAC * num as f64
     }
@@ -332,6 +339,11 @@ impl<'a> Scan<'a> {
     }
 }
 
+/// Whether a label is a description by a search, and no name that a person gave.
+fn is_guess(label: &str) -> bool {
+    is_description(label) || is_bound(label)
+}
+
 /// Whether a noun is an animal or a person: what a scan is about, and no thing on a shelf.
 fn is_living(noun: &Word) -> bool {
     let things = Things::embedded();
@@ -388,6 +400,19 @@ mod tests {
         assert_eq!(of("the cupboards"), [2, 3]);
         assert_eq!(of("the blue cupboard"), [2]);
         assert_eq!(of("the giraffe"), Vec::<u32>::new());
+    }
+
+    #[test]
+    fn names_that_were_given_count_before_guesses() {
+        let mut set = kitchen();
+        set.objects.push(Object::from_box(10, "red bowl", DVec3::new(1.0, 1.2, 1.0), DVec3::splat(0.1)));
+        assert!(named("push in on the red bowl", &set, DVec3::Y).is_none(), "it has that name");
+        let teapots = named("push in on the teapots", &set, DVec3::Y).unwrap();
+        assert_eq!(teapots.nouns, [("teapots".to_owned(), vec![5, 6, 8])]);
+        set.objects[5].label = "bread bin".to_owned();
+        let teapots = named("push in on the teapots", &set, DVec3::Y).unwrap();
+        assert_eq!(teapots.nouns[0].1, [5, 8], "a thing with a name keeps it");
+        assert_eq!(teapots.objects.objects[5].label, "bread bin");
     }
 
     #[test]

@@ -8,7 +8,7 @@ use std::cmp::Reverse;
 
 use super::error::PipelineError;
 use super::interpreter::names;
-use super::said_parts::{self, HEAD};
+use super::said_parts::{self, HEAD, PEOPLE, PERSON};
 use cinesplat_director::{Director, Places};
 use cinesplat_language::{
     Linked, Relation, Things, Word, is_listed, own_part_at, part_of, said_parts as said_parts_of, tokenize,
@@ -18,11 +18,6 @@ use cinesplat_operator::{Amount, Framing, Program};
 use cinesplat_scene::Scene;
 use cinesplat_trajectory::Move;
 
-/// People whom the list of kinds of things lacks.
-const PEOPLE: &str = "biker rider motorcyclist cyclist photographer dancer model player driver runner athlete mannequin singer \
-    musician fellow dude gentleman chap monk bride groom fighter boxer skater surfer hiker farmer sailor statue sculpture";
-/// What a thing with a head is called where the words do not say it.
-const PERSON: &str = "person";
 /// What a thing stands on: rarely what a scan is about.
 const GROUNDS: [&str; 10] =
     ["soil", "ground", "floor", "earth", "grass", "table", "stand", "pedestal", "plinth", "background"];
@@ -93,13 +88,22 @@ pub(super) fn link<'a>(
 }
 
 /// Lets what a program says of nothing be about the thing of a scan of one thing: `from the side` is then a side of it.
-pub(super) fn show(program: &mut Program, objects: &ObjectSet) {
+pub(super) fn show(prompt: &str, program: &mut Program, objects: &ObjectSet) {
     let Some(whole) = objects.only_whole() else { return };
     let names_nothing = program.object_ids().is_empty();
     let mut shown: Vec<u32> = Vec::new();
     for step in &mut program.steps {
         // `Down to the body, then pull out and show it whole` is all of it.
-        let takes_in = step.movement == Move::PullOut && step.end.whole && step.end.subjects == shown;
+        let says_all = || {
+            let words = step.words.and_then(|[from, to]| prompt.get(from..to)).map(tokenize).unwrap_or_default();
+            words.windows(3).any(|three| three[0].text == "all" && three[1].text == "of" && three[2].text == "it")
+        };
+        let is_part =
+            |id: &u32| objects.objects.iter().any(|object| object.id == *id && object.parent == Some(whole.id));
+        let are_parts = || !step.end.subjects.is_empty() && step.end.subjects.iter().all(is_part);
+        let takes_in = step.movement == Move::PullOut
+            && step.end.whole
+            && (step.end.subjects == shown || are_parts() && says_all());
         // `A full circle, all of it in the frame from headstock to stand` begins at no end of it.
         let is_all_round = matches!(step.amount, Some(Amount::Degrees(degrees)) if degrees >= ALL_ROUND_DEG);
         if takes_in && shown != [whole.id] {
@@ -272,7 +276,7 @@ mod tests {
         };
         let objects = vec![object(1, None, 90), object(2, Some(1), 60), object(3, Some(1), 30)];
         let mut program = Program { steps, ..Program::default() };
-        show(&mut program, &ObjectSet { objects, labels: Vec::new() });
+        show("", &mut program, &ObjectSet { objects, labels: Vec::new() });
         program.steps
     }
 

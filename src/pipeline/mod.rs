@@ -23,6 +23,7 @@ mod interpreter;
 mod job;
 mod lone_thing;
 mod opened_scene;
+mod other_kinds;
 mod panic_point;
 mod phases;
 mod point_features;
@@ -37,7 +38,7 @@ mod takes_sheet;
 pub use choose_film::{Critique, FilmChoice};
 pub use clearance::{certify, prove_clearance};
 pub use direct::{
-    DirectSettings, Directed, StepReading, direct, direct_program, prepare_objects, shot_of, stated_size,
+    DirectSettings, Directed, StepReading, direct, direct_program, prepare_objects, shot_of, stated_rate, stated_size,
 };
 pub use error::PipelineError;
 pub use film::{

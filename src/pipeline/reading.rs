@@ -1,7 +1,9 @@
 //! What a prompt is understood as: its program, how sure that is, and what it asks for in vain.
 
 use cinesplat_director::{Direction, SceneContext, StepCertainty, take_levels};
-use cinesplat_language::{EffectMention, Group, Linked, effect_mentions, forbidding_words, tokenize};
+use cinesplat_language::{
+    EffectMention, Group, Linked, effect_mentions, forbidding_words, frame_rate, is_foreign, tokenize,
+};
 use cinesplat_operator::{Framing, Look, Motion, Pass, Program, Step};
 use cinesplat_trajectory::{Move, ReportLine};
 
@@ -93,7 +95,8 @@ impl Reading {
         let of_steps = self.direction.program.steps.iter().filter_map(|step| step.words);
         let of_effects = self.effects.iter().map(|effect| effect_words(prompt, effect, &self.effects));
         let of_problems = self.problems.iter().map(|problem| problem.span);
-        let others: Vec<[usize; 2]> = of_effects.chain(of_problems).collect();
+        let of_rate = frame_rate(prompt).map(|rate| rate.bytes);
+        let others: Vec<[usize; 2]> = of_effects.chain(of_problems).chain(of_rate).collect();
         let used: Vec<[usize; 2]> = of_steps.chain(others.iter().copied()).collect();
         let lies_in =
             |span: &[usize; 2], used: &[[usize; 2]]| used.iter().any(|used| used[0] <= span[0] && span[1] <= used[1]);
@@ -131,10 +134,13 @@ pub fn read(
 ) -> Result<Reading, PipelineError> {
     let effects = effect_mentions(prompt, &linked)?;
     let mut direction = interpreter.direct(prompt, &linked, scene)?;
+    if linked.slots.is_empty() && linked.quantities.is_empty() && effects.is_empty() && is_gibberish(&linked)? {
+        direction = Direction::default();
+    }
     if direction.program.limits.is_empty() {
         direction.program.limits.clone_from(&linked.limits);
     }
-    take_levels(&linked, &mut direction)?;
+    take_levels(&linked, scene, &mut direction)?;
     let stays = stated::apply(prompt, linked.timeline.as_ref(), &mut direction.program);
     retain_steps(&mut direction, &stays);
     merge_holds(&linked, &mut direction);
@@ -147,6 +153,12 @@ pub fn read(
     problems.extend(contradictions(prompt, &mut direction.program));
     problems.extend(uncertain(prompt, &mut direction));
     Ok(Reading { linked, direction, effects, problems })
+}
+
+/// Whether the words are of no language that is read, and none of them has a meaning for a camera.
+fn is_gibberish(linked: &Linked) -> Result<bool, PipelineError> {
+    let words = linked.texts_in([0, usize::MAX]);
+    Ok(is_foreign(&words)? && linked.senses()?.iter().all(|senses| senses.is_empty()))
 }
 
 /// Makes one static step of two in a row that hold the same picture: `go low and look up at it, then stay there for
@@ -229,6 +241,9 @@ fn unmet(prompt: &str, direction: &Direction, effects: &[EffectMention]) -> Vec<
     let of_effects: Vec<_> = effects.iter().map(|effect| effect_words(prompt, effect, effects)).collect();
     let spans = direction.unmet.iter().filter(|span| !of_effects.iter().any(|effect| overlaps(effect, span)));
     let spans = spans.filter(|[start, end]| prompt.get(*start..*end).is_some_and(carries_request));
+    // The film has the stated frame rate.
+    let rate = frame_rate(prompt).map(|rate| rate.bytes);
+    let spans = spans.filter(|span| !rate.is_some_and(|rate| overlaps(&rate, span)));
     let problem = |span: &[usize; 2]| problem(prompt, ProblemKind::CannotBeDone, *span, String::new());
     spans.map(problem).collect()
 }

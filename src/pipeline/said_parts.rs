@@ -5,8 +5,8 @@ use std::borrow::Cow;
 
 use cinesplat_critic::Subjects;
 use cinesplat_geometry::LevelFrame;
-use cinesplat_language::{SaidPart, Word, is_listed, said_parts, tokenize};
-use cinesplat_objects::{Object, ObjectSet, Region};
+use cinesplat_language::{Relation, SaidPart, Things, Word, is_listed, said_parts, tokenize};
+use cinesplat_objects::{Object, ObjectSet, Region, is_description};
 use cinesplat_scene::Scene;
 use glam::DVec3;
 
@@ -14,8 +14,15 @@ use super::error::PipelineError;
 
 /// The part that only people have.
 pub(super) const HEAD: &str = "head";
+/// People whom the list of kinds of things lacks.
+pub(super) const PEOPLE: &str = "biker rider motorcyclist cyclist photographer dancer model player driver runner athlete mannequin singer \
+    musician fellow dude gentleman chap monk bride groom fighter boxer skater surfer hiker farmer sailor statue sculpture";
+/// What a thing with a head is called where the words do not say it.
+pub(super) const PERSON: &str = "person";
 /// Depth of a part of the front or the back, and reach of one at a side, as shares of the thing.
 const FRONT: [f64; 2] = [0.4, 1.0];
+/// Depth of a small part of the front: teeth, eyes.
+const FACE: [f64; 2] = [0.6, 1.0];
 const BACK: [f64; 2] = [0.0, 0.6];
 const RIGHT: [f64; 2] = [0.7, 1.0];
 const LEFT: [f64; 2] = [0.0, 0.3];
@@ -96,6 +103,7 @@ fn places(words: &[Word], part: &SaidPart, ahead: Option<DVec3>, up: DVec3) -> V
     let is_plural = words[part.words.end - 1].text != words[part.words.end - 1].stem;
     let sided = |side: &str, shares| (format!("{side} {name}"), Some((right, shares)));
     match part.place.place {
+        "front" if part.place.is_small => vec![(name.clone(), Some((ahead, FACE)))],
         "front" => vec![(name.clone(), Some((ahead, FRONT)))],
         "back" => vec![(name.clone(), Some((ahead, BACK)))],
         "left" => vec![(name.clone(), Some((right, LEFT)))],
@@ -114,10 +122,20 @@ fn missing_below(objects: &ObjectSet, whole: &Object, up: DVec3) -> f64 {
         let [low, high] = object.span_along(up);
         high - low
     };
+    // A robot's head may be half of it.
+    if !is_person(&whole.label) && !is_description(&whole.label) {
+        return 0.0;
+    }
     let is_head = |object: &&Object| object.parent == Some(whole.id) && object.label == HEAD;
     let head = objects.objects.iter().find(is_head).map_or(0.0, height);
     let share = head / height(whole).max(f64::MIN_POSITIVE);
     if share > CROPPED_FRAC { share / HEAD_FRAC - 1.0 } else { 0.0 }
+}
+
+/// Whether a label is one of a person.
+fn is_person(label: &str) -> bool {
+    let is_listed_one = tokenize(label).last().is_some_and(|head| is_listed(PEOPLE, &head.stem));
+    is_listed_one || Things::embedded().is_related(label, PERSON, &[Relation::Same, Relation::Broader])
 }
 
 #[cfg(test)]
@@ -142,6 +160,10 @@ mod tests {
         assert!(missing(0.3).abs() < 1e-9, "from head to toe");
         // A head with its neck of half of the height: two of six and a half of them.
         assert!((missing(1.0) - (0.5 / HEAD_FRAC - 1.0)).abs() < 1e-9);
+        let mut robot = set(1.0);
+        robot.objects[0].label = "robot".to_owned();
+        let missing = missing_below(&robot, &robot.objects[0], DVec3::Y);
+        assert!(missing.abs() < 1e-9, "its head may be half of it");
     }
 
     #[test]

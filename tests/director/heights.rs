@@ -2,6 +2,7 @@
 
 use cinesplat::director::{Director, SceneContext, take_levels};
 use cinesplat::language::{NamedObject, program_to_notation};
+use cinesplat::objects::Object;
 use glam::DVec3;
 
 /// The program with the heights that the words name, about five things.
@@ -12,7 +13,7 @@ fn program(prompt: &str) -> String {
     let context = SceneContext { objects: &[], up: DVec3::Y, center: DVec3::new(0.0, 1.0, -1.5), size: 7.0 };
     let linked = director.link(prompt, &named).unwrap();
     let mut direction = director.direct(&linked, &context).unwrap();
-    take_levels(&linked, &mut direction).unwrap();
+    take_levels(&linked, &context, &mut direction).unwrap();
     program_to_notation(&direction.program)
 }
 
@@ -61,4 +62,23 @@ fn a_three_quarter_view_is_from_the_front() {
 fn an_opening_that_looks_away_from_a_thing_stands_at_it() {
     let found = program("start at the curtain looking in, slow pan left to the sideboard");
     assert!(found.contains("from=5") && !found.contains("start=5"), "{found}");
+}
+
+#[test]
+fn the_height_of_another_thing_is_that_of_its_top() {
+    let objects = [("workbench", 0.0, 0.45), ("stool", 2.0, 0.25), ("shelf", 4.0, 0.9)];
+    let objects: Vec<Object> = (1..)
+        .zip(objects)
+        .map(|(id, (label, x, half))| Object::from_box(id, label, DVec3::new(x, half, 0.0), DVec3::splat(half)))
+        .collect();
+    let named: Vec<NamedObject> =
+        objects.iter().map(|object| NamedObject { id: object.id, label: object.label.clone() }).collect();
+    let director = Director::embedded().unwrap();
+    let context = SceneContext { objects: &objects, up: DVec3::Y, center: DVec3::new(2.0, 1.0, 0.0), size: 7.0 };
+    let prompt = "push in on the shelf from the height of the stool";
+    let linked = director.link(prompt, &named).unwrap();
+    let mut direction = director.direct(&linked, &context).unwrap();
+    take_levels(&linked, &context, &mut direction).unwrap();
+    let found = program_to_notation(&direction.program);
+    assert!(found.contains(":h0.5u"), "{found}");
 }

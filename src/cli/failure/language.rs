@@ -11,7 +11,8 @@ impl From<LanguageError> for Failure {
         let (exit, help) = match error {
             E::NothingToDo => (
                 Exit::BadData,
-                "say where the camera goes or looks; `cinesplat read -p PROMPT` shows what is understood".to_owned(),
+                "say in English where the camera goes or looks; `cinesplat read -p PROMPT` shows what is understood"
+                    .to_owned(),
             ),
             E::TooLong { .. } => (Exit::BadData, "shorten the prompt to the camera's moves".to_owned()),
             E::Empty => {

@@ -74,7 +74,10 @@ pub(crate) fn drop_height_subjects(linked: &Linked, direction: &mut Direction) {
     let words = linked.texts_in([0, usize::MAX]);
     let is_height = |at: usize| {
         let owned = at + 1 + usize::from(words.get(at + 1) == Some(&"'s"));
-        words.get(owned).is_some_and(|word| matches!(*word, "height" | "level"))
+        // `At the height of the bench`, `level with the stool`.
+        let before = &words[at.saturating_sub(2)..at];
+        let is_behind = matches!(before, ["height", "of"] | ["level", "with"]);
+        is_behind || words.get(owned).is_some_and(|word| matches!(*word, "height" | "level"))
     };
     let mut heights: Vec<u32> =
         (0..words.len()).filter(|at| is_height(*at)).filter_map(|at| linked.slot_at(words[at])).collect();
@@ -84,12 +87,13 @@ pub(crate) fn drop_height_subjects(linked: &Linked, direction: &mut Direction) {
     for nth in (0..direction.program.steps.len()).rev() {
         let steps = &direction.program.steps;
         let step = &steps[nth];
-        if !is_only_height(&step.end.subjects) {
-            continue;
-        }
         let own = linked.texts_in(step.words.unwrap_or_default());
         let mut others = own.iter().filter_map(|word| linked.slot_at(word)).map(|id| linked.expanded(&[id]));
         let named = others.rfind(|ids| !is_only_height(ids));
+        if !is_only_height(&step.end.subjects) {
+            begin_without(&mut direction.program.steps[nth], &is_only_height, named);
+            continue;
+        }
         let is_bare = step.amount.is_none() && step.duration_secs.is_none() && named.is_none();
         if is_bare && steps.len() > 1 && !(0..own.len()).any(|at| is_camera_verb(&own, at)) {
             direction.remove_step(nth);
@@ -105,6 +109,17 @@ pub(crate) fn drop_height_subjects(linked: &Linked, direction: &mut Direction) {
         let step = &mut direction.program.steps[nth];
         step.end.angle = step.end.angle.filter(|angle| *angle != ShotAngle::EyeLevel);
         step.end.subjects = subjects;
+    }
+}
+
+/// Begins with what a step shows where it was read to begin with what only says how high the camera is.
+fn begin_without(step: &mut Step, is_only_height: &dyn Fn(&[u32]) -> bool, named: Option<Vec<u32>>) {
+    if !is_only_height(&step.start.subjects) || step.movement == Move::Static {
+        return;
+    }
+    step.start = Framing { size: step.start.size, ..Framing::default() };
+    if step.end.subjects.is_empty() {
+        step.end.subjects = named.unwrap_or_default();
     }
 }
 
@@ -260,6 +275,14 @@ mod tests {
         assert_eq!(shown("keep <obj-0> centered , back off , dropping to about <obj-1> height", &[]), of(&[5]));
         assert_eq!(shown("back off , dropping to <obj-1> 's level", &[5]), of(&[5]));
         assert_eq!(shown("static at <obj-1> level", &[]).subjects, [7]);
+        assert_eq!(shown("slide along <obj-0> , level with <obj-1>", &[]), of(&[5]));
+        let text = "crane up before <obj-0> from about the height of <obj-1>";
+        let mut step = about(Move::CraneUp, &[], [0, text.len()]);
+        step.start = Framing { subjects: vec![7], angle: Some(ShotAngle::EyeLevel), ..Framing::default() };
+        let mut risen = direction(vec![step]);
+        drop_height_subjects(&linked(text), &mut risen);
+        assert_eq!(risen.program.steps[0].end.subjects, [5]);
+        assert_eq!(risen.program.steps[0].start, Framing::default());
         // A subject that is at its own height stays.
         assert_eq!(shown("at <obj-1> height , back off from <obj-1>", &[5]).subjects, [7]);
         let text = "<obj-1> height , push in on <obj-0>";

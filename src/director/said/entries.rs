@@ -4,7 +4,7 @@
 use cinesplat_language::{Linked, is_listed};
 use cinesplat_objects::Object;
 use cinesplat_operator::{Framing, Pass, Step, Via};
-use cinesplat_trajectory::{Move, ShotSize};
+use cinesplat_trajectory::{Move, ShotAngle, ShotSize};
 
 use super::called::is_called;
 use super::directions::is_form;
@@ -53,7 +53,8 @@ pub(crate) fn come_in_at_doors(linked: &Linked, objects: &[Object], direction: &
 
 /// Begins a way at the door from which the words lead, which is behind the camera then: `glide from the door to the sofa`.
 fn leave_door(linked: &Linked, objects: &[Object], step: &mut Step) {
-    let goes = matches!(step.movement, Move::PushIn | Move::Follow | Move::FlyThrough) && step.with.is_empty();
+    let goes = matches!(step.movement, Move::PushIn | Move::Follow | Move::FlyThrough)
+        && step.with.iter().all(|with| *with == Move::Handheld);
     let door = &step.start.subjects;
     let is_door = !door.is_empty() && door.iter().all(|id| is_called(objects, *id, DOORS));
     let passes = step.via.as_ref().is_some_and(|via| via.objects.iter().any(|id| !door.contains(id)));
@@ -67,7 +68,9 @@ fn leave_door(linked: &Linked, objects: &[Object], step: &mut Step) {
     let looks = says_look(&words[..at]);
     // `With the full room on show` is what there is to see from it.
     let size = step.start.size.filter(|size| *size == ShotSize::Long);
-    let is_plain = step.start == Framing { subjects: door.clone(), size, ..Framing::default() };
+    // `In from the door at eye level` is how high somebody walks.
+    let angle = step.start.angle.filter(|angle| *angle == ShotAngle::EyeLevel);
+    let is_plain = step.start == Framing { subjects: door.clone(), size, angle, ..Framing::default() };
     if goes && is_door && !passes && ends && leads && !looks && is_plain {
         let objects = std::mem::take(&mut step.start).subjects;
         step.via = Some(Via { how: Pass::From, objects });

@@ -2,7 +2,7 @@
 
 use cinesplat_language::{Linked, is_listed};
 use cinesplat_operator::{Framing, Step, SubjectPart};
-use cinesplat_trajectory::Move;
+use cinesplat_trajectory::{Move, ShotSize};
 
 use super::briefs::is_camera_verb;
 
@@ -39,10 +39,57 @@ pub(crate) fn begin_at_named(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Sizes of first pictures, by the words before `of`.
+const SIZES: [(&[&str], ShotSize); 7] = [
+    (&["extreme", "close-up"], ShotSize::ExtremeCloseUp),
+    (&["close-up"], ShotSize::CloseUp),
+    (&["close", "up"], ShotSize::CloseUp),
+    (&["closeup"], ShotSize::CloseUp),
+    (&["medium", "shot"], ShotSize::Medium),
+    (&["wide", "shot"], ShotSize::Long),
+    (&["long", "shot"], ShotSize::Long),
+];
+
+/// Begins with the size of the picture that the first words name, where a move about the same thing follows: `close-up of the bust, arc
+/// left around it`.
+pub(crate) fn size_named(linked: &Linked, steps: &mut [Step]) {
+    let Some(step) = steps.first_mut().filter(|step| step.movement != Move::Static) else { return };
+    let words = linked.texts_in([0, usize::MAX]);
+    let from = words.iter().take_while(|word| is_listed("a an the tight nice slow", word)).count();
+    let Some((phrase, size)) = SIZES.iter().find(|(phrase, _)| words[from..].starts_with(phrase)) else { return };
+    let rest = &words[from + phrase.len()..];
+    let (Some(&of), Some(&named)) = (rest.first(), rest.iter().skip(1).find(|word| **word != "the")) else { return };
+    let named_at = rest.iter().position(|word| *word == named).unwrap_or_default();
+    let is_ended = rest.get(named_at + 1).is_some_and(|word| matches!(*word, "," | "." | ";" | ":" | "then" | "first"));
+    if !(matches!(of, "of" | "on") && is_ended) {
+        return;
+    }
+    let is_of_it = |framing: &Framing| linked.stands_for(named, &framing.subjects);
+    let is_sized = |framing: &Framing| framing.size.is_some() || framing.height_frac.is_some() || framing.whole;
+    if is_of_it(&step.start) && !is_sized(&step.start) {
+        step.start.size = Some(*size);
+    } else if step.start == Framing::default() && is_of_it(&step.end) && !is_sized(&step.end) {
+        step.start = Framing { subjects: step.end.subjects.clone(), size: Some(*size), ..Framing::default() };
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::super::fixture::{about, linked};
     use super::*;
+
+    #[test]
+    fn the_size_of_the_first_picture_is_that_of_the_move_around_it() {
+        let size = |text: &str| {
+            let mut steps = [about(Move::ArcLeft, &[5], [0, text.len()])];
+            size_named(&linked(text), &mut steps);
+            steps[0].start.size
+        };
+        assert_eq!(size("close-up of <obj-0> , arc left around it"), Some(ShotSize::CloseUp));
+        assert_eq!(size("wide shot of <obj-0> . arc left"), Some(ShotSize::Long));
+        assert_eq!(size("close-up of <obj-1> , arc left around <obj-0>"), None);
+        assert_eq!(size("close-up of <obj-0> and <obj-1> , arc left around it"), None);
+    }
 
     fn start(text: &str) -> (Vec<u32>, bool) {
         let mut steps = [about(Move::CraneDown, &[7], [0, text.len()])];

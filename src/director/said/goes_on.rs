@@ -4,6 +4,7 @@ use cinesplat_language::{Linked, is_listed};
 use cinesplat_operator::{Framing, Pass, Step, Via};
 use cinesplat_trajectory::{Move, ShotSize};
 
+use super::briefs::is_camera_verb;
 use crate::direction::Direction;
 
 /// Words before what goes on, and what goes on.
@@ -144,6 +145,38 @@ pub(crate) fn finish_on_picture(linked: &Linked, direction: &mut Direction) {
     });
 }
 
+/// Most words between the joint and where a rise leads.
+const LEADS_WITHIN: usize = 3;
+
+/// Makes one rise of two in a row where the words of the second are only where the first one leads: `crane up from the height of the bench
+/// to up near the ceiling`.
+pub(crate) fn join_rises(linked: &Linked, direction: &mut Direction) {
+    direction.join_pairs(|first, second| {
+        let rises = |step: &Step| matches!(step.movement, Move::CraneUp | Move::PedestalUp);
+        let words = linked.texts_in(second.words?);
+        let leads = words.iter().take(LEADS_WITHIN).any(|word| is_listed("from to up until till", word))
+            && !(0..words.len().min(LEADS_WITHIN)).any(|at| is_camera_verb(&words, at) || words[at] == "then");
+        // `From the height of the bench` is where it begins.
+        let height = Framing { height: second.start.height, ..Framing::default() };
+        let is_plain = second.with.is_empty()
+            && second.via.is_none()
+            && second.start == height
+            && second.end.subjects.is_empty()
+            && second.duration_secs.is_none()
+            && !second.cut;
+        let is_open = first.end.angle.is_none() && first.end.size.is_none() && first.duration_secs.is_none();
+        let begins = first.start == Framing::default() && second.start.height.is_some();
+        let start =
+            if begins { Framing { subjects: first.end.subjects.clone(), ..height } } else { first.start.clone() };
+        (rises(first) && rises(second) && leads && is_plain && is_open).then(|| Step {
+            start,
+            end: Framing { angle: second.end.angle, height: second.end.height, ..first.end.clone() },
+            words: first.joint_words(second),
+            ..first.clone()
+        })
+    });
+}
+
 /// Drops steps of which the words are but a mark and that only repeat the step before, or rest.
 pub(crate) fn drop_wordless(linked: &Linked, steps: &mut Vec<Step>) {
     let mut nth = 1;
@@ -177,12 +210,27 @@ fn goes_on(words: &[&str]) -> bool {
 mod tests {
     use super::super::fixture::{about, direction, linked};
     use super::*;
+    use cinesplat_trajectory::ShotAngle;
 
     fn second(first: Move, text: &str) -> Move {
         let at = text.find(" and").unwrap();
         let mut steps = [about(first, &[5], [0, at]), about(Move::Follow, &[7], [at + 1, text.len()])];
         go_on(&linked(text), &mut steps);
         steps[1].movement
+    }
+
+    #[test]
+    fn where_a_rise_leads_is_no_further_rise() {
+        let count = |text: &str| {
+            let at = text.find(" up near").unwrap_or_else(|| text.find(" then").unwrap());
+            let mut second = about(Move::CraneUp, &[], [at + 1, text.len()]);
+            second.end.angle = Some(ShotAngle::High);
+            let mut direction = direction(vec![about(Move::CraneUp, &[5], [0, at]), second]);
+            join_rises(&linked(text), &mut direction);
+            (direction.program.steps.len(), direction.program.steps[0].end.angle)
+        };
+        assert_eq!(count("crane up at <obj-0> to up near the ceiling"), (1, Some(ShotAngle::High)));
+        assert_eq!(count("crane up at <obj-0> then crane up high").0, 2);
     }
 
     #[test]

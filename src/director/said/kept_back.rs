@@ -78,6 +78,40 @@ pub(crate) fn reveal_from_behind(linked: &Linked, steps: &mut [Step]) {
     }
 }
 
+/// Rises from behind a thing to what the words reveal over it: `reveal the sofa: start low behind the chair, rise up and see the sofa and
+/// the table over the top of it` is one move.
+pub(crate) fn rise_from_behind(linked: &Linked, direction: &mut Direction) {
+    let steps = &direction.program.steps;
+    let Some(first) = steps.first().filter(|step| step.movement == Move::Reveal) else { return };
+    let Some(cover) = first.via.as_ref().filter(|via| via.how == Pass::Behind).map(|via| via.objects.clone()) else {
+        return;
+    };
+    let words = linked.texts_in([0, usize::MAX]);
+    let hides = words.windows(2).any(|pair| pair == ["hidden", "behind"] || pair == ["hiding", "behind"])
+        || words.windows(2).any(|pair| pair == ["low", "behind"]);
+    let rises = |step: &Step| matches!(step.movement, Move::CraneUp | Move::PedestalUp);
+    let Some(rise) = steps.get(1).filter(|step| rises(step) && hides) else { return };
+    let shares = |step: &Step| step.end.subjects.iter().any(|id| first.end.subjects.contains(id));
+    // Behind the rise only rests on what it shows follow.
+    let rests = |step: &Step| step.movement == Move::Static && (step.end.subjects.is_empty() || shares(step));
+    if !shares(rise) || !steps[2..].iter().all(rests) {
+        return;
+    }
+    let mut end = rise.end.clone();
+    let shown =
+        steps[2..].iter().flat_map(|step| step.end.subjects.iter().chain(step.via.iter().flat_map(|via| &via.objects)));
+    let shown: Vec<u32> = shown.filter(|id| !cover.contains(id)).copied().collect();
+    add_ids(&mut end.subjects, &shown);
+    let words =
+        steps.iter().fold(first.words, |words, step| Step { words, ..Step::of(Move::Static) }.joint_words(step));
+    let with = vec![Move::PedestalUp];
+    let one = Step { end, with, words, ..first.clone() };
+    while direction.program.steps.len() > 1 {
+        direction.remove_step(1);
+    }
+    direction.program.steps[0] = one;
+}
+
 /// Begins where the one thing that is found last is not seen.
 fn find_last(linked: &Linked, direction: &mut Direction) {
     let words = linked.texts_in([0, usize::MAX]);
@@ -149,6 +183,23 @@ mod tests {
         assert_eq!(moves("drift and discover <obj-0> only at last", Move::PushIn), [Move::Reveal]);
         assert_eq!(moves("drift over to <obj-0> at last", Move::Follow), [Move::Follow]);
         assert_eq!(moves("find <obj-0> . the last one on the left", Move::Follow), [Move::Follow]);
+    }
+
+    #[test]
+    fn a_rise_from_behind_a_thing_is_one_reveal() {
+        let read = |text: &str| {
+            let [first, second] = ["rise", "over"].map(|word| text.find(word).unwrap());
+            let mut reveal = about(Move::Reveal, &[7], [0, first]);
+            reveal.via = Some(Via { how: Pass::Behind, objects: vec![5] });
+            let rest = Step { end: Framing::default(), ..about(Move::Static, &[], [second, text.len()]) };
+            let mut direction = direction(vec![reveal, about(Move::CraneUp, &[7, 9], [first, second]), rest]);
+            rise_from_behind(&linked(text), &mut direction);
+            let steps = direction.program.steps;
+            (steps.len(), steps[0].with.clone(), steps[0].end.subjects.clone())
+        };
+        let one = (1, vec![Move::PedestalUp], vec![7, 9]);
+        assert_eq!(read("start low hidden behind <obj-0> , rise and see <obj-1> over it"), one);
+        assert_eq!(read("come from <obj-0> , rise and see <obj-1> over it").0, 3);
     }
 
     #[test]

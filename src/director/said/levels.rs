@@ -8,6 +8,7 @@ use cinesplat_trajectory::{Move, ShotAngle};
 use super::bans::{SENTENCE_ENDS, asks_for};
 use super::directions::is_form;
 use crate::direction::Direction;
+use crate::director::SceneContext;
 
 /// What is as high as the camera.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -34,7 +35,7 @@ struct Mention {
 ///
 /// # Errors
 /// [`LanguageError::BadData`] for a damaged list of heights.
-pub fn take_levels(linked: &Linked, direction: &mut Direction) -> Result<(), LanguageError> {
+pub fn take_levels(linked: &Linked, scene: &SceneContext<'_>, direction: &mut Direction) -> Result<(), LanguageError> {
     let words: Vec<&str> = linked.tokens_text.split(' ').collect();
     if words.len() != linked.spans.len() {
         return Ok(());
@@ -51,7 +52,7 @@ pub fn take_levels(linked: &Linked, direction: &mut Direction) -> Result<(), Lan
     let apart: Vec<bool> = mentions.iter().map(|mention| stands_apart(mention, steps)).collect();
     for step in steps.iter_mut() {
         let own = mentions.iter().zip(&apart).filter(|(mention, apart)| !**apart && of_step(step, mention));
-        let own: Vec<Mention> = own.map(|(mention, _)| *mention).collect();
+        let own: Vec<Mention> = own.map(|(mention, _)| above_floor(linked, scene, step, mention)).collect();
         let throughout = mentions.iter().zip(&apart).filter(|(_, apart)| **apart).map(|(mention, _)| *mention).next();
         if own.is_empty() {
             throughout.into_iter().for_each(|mention| hold(linked, step, mention.height));
@@ -70,6 +71,31 @@ pub fn take_levels(linked: &Linked, direction: &mut Direction) -> Result<(), Lan
         .filter(|(_, apart)| **apart)
         .for_each(|(mention, _)| own_words(linked, direction, mention));
     Ok(())
+}
+
+/// A mention of a height that is another thing's than those that the step shows, above the floor: `up along the shelf, starting level
+/// with the stool`.
+fn above_floor(linked: &Linked, scene: &SceneContext<'_>, step: &Step, mention: &Mention) -> Mention {
+    let Height::Object(id) = mention.height else { return *mention };
+    let [id] = linked.expanded(&[id])[..] else { return *mention };
+    let is_shown = [&step.start, &step.end].into_iter().any(|framing| framing.subjects.contains(&id));
+    let top = top_above_floor(scene, id).filter(|_| !is_shown);
+    Mention { height: top.map_or(mention.height, Height::Units), ..*mention }
+}
+
+/// Least number of things that stand on a floor, and how far apart, over the scene size, their lower ends are at most.
+const STANDING: usize = 3;
+const UNEVEN_FRAC: f64 = 0.02;
+
+/// How high the upper end of a thing is above the floor, where other things show where that is.
+fn top_above_floor(scene: &SceneContext<'_>, id: u32) -> Option<f64> {
+    let spans: Vec<[f64; 2]> = scene.objects.iter().map(|object| object.span_along(scene.up)).collect();
+    let floor = spans.iter().map(|[bottom, _]| *bottom).fold(f64::INFINITY, f64::min);
+    let standing = spans.iter().filter(|[bottom, _]| bottom - floor <= UNEVEN_FRAC * scene.size).count();
+    // Boxes that are all as high are made up.
+    let differ = spans.windows(2).any(|two| (two[0][1] - two[1][1]).abs() > UNEVEN_FRAC * scene.size);
+    let own = scene.objects.iter().position(|object| object.id == id)?;
+    (standing >= STANDING && differ).then(|| spans[own][1] - floor)
 }
 
 /// Adds the words of a height that holds throughout to those of the first step behind it, or the last one before it.

@@ -67,6 +67,7 @@ mod sweeps;
 mod taken_back;
 mod together;
 mod told_ends;
+mod told_places;
 mod travels;
 mod unsaid_parts;
 mod until;
@@ -229,6 +230,7 @@ fn take_said_of_views(linked: &Linked, steps: &mut [Step]) {
     unsaid_parts::drop_unsaid_parts(linked, steps);
     unsaid_parts::drop_unsaid_amounts(linked, steps);
     first_pictures::begin_at_named(linked, steps);
+    first_pictures::size_named(linked, steps);
     frame_sides::leave_sides_to_owners(linked, steps);
 }
 
@@ -265,6 +267,9 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     goes_on::drop_wordless(linked, &mut direction.program.steps);
     goes_on::join_arrivals(linked, &mut direction.program.steps);
     goes_on::finish_on_picture(linked, direction);
+    goes_on::join_rises(linked, direction);
+    told_places::drop_told_places(linked, direction);
+    stillness::show_needed(linked, direction);
     stands::stand_at_opening(linked, &mut direction.program.steps);
     stands::stand_where_wide(linked, &mut direction.program.steps);
     stands::stand_at_side(linked, &mut direction.program.steps);
@@ -278,6 +283,7 @@ fn take_said_of_moves(linked: &Linked, direction: &mut Direction) {
     kept_aims::stay_aimed(linked, &mut direction.program.steps);
     kept_aims::slide_straight(linked, &mut direction.program.steps);
     kept_back::reveal_from_behind(linked, &mut direction.program.steps);
+    kept_back::rise_from_behind(linked, direction);
     heights::begin_at_height(linked, &mut direction.program.steps);
     heights::hold_height(linked, direction);
 }

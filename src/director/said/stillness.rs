@@ -1,12 +1,13 @@
 //! Which moves there are, whatever the network reads: a camera on a tripod does not shake, a person who only looks does
 //! not walk, a spiral goes around.
 
-use cinesplat_language::{LanguageError, Linked, Senses};
+use cinesplat_language::{LanguageError, Linked, Senses, is_listed};
 use cinesplat_operator::{Amount, Framing, Motion, Pass, Program, Step};
 use cinesplat_trajectory::Move;
 
 use super::directions::is_form;
 use super::senses::says;
+use crate::direction::Direction;
 
 /// Takes a shake away that the words do not say: `pan from the armchair to the television, tripod`. `senses` has one entry
 /// per word.
@@ -286,5 +287,60 @@ pub(crate) fn circle_spirals(linked: &Linked, steps: &mut [Step]) {
                 (step.movement, step.either_way, step.with) = (Move::OrbitRight, true, vec![lift]);
             }
         }
+    }
+}
+
+/// Words of what has to be in a picture, and before it.
+const NEEDS: &str = "need needs want wants must should make with including keep";
+const IN_PICTURE: [&[&str]; 6] = [
+    &["in", "frame"],
+    &["in", "shot"],
+    &["in", "the", "frame"],
+    &["in", "the", "shot"],
+    &["in", "the", "picture"],
+    &["in", "view"],
+];
+
+/// Shows in one picture at rest what the words behind it say has to be in it: `overhead shot of the desk, don't move. I need the laptop
+/// and the lamp in frame`.
+pub(crate) fn show_needed(linked: &Linked, direction: &mut Direction) {
+    direction.join_pairs(|first, second| {
+        let words = linked.texts_in(second.words?);
+        let needs = words.iter().take(4).any(|word| is_listed(NEEDS, word))
+            && words.iter().take(4).all(|word| *word != "then")
+            && IN_PICTURE.iter().any(|phrase| words.windows(phrase.len()).any(|said| said == *phrase));
+        let plain = Step {
+            words: second.words,
+            end: Framing { subjects: second.end.subjects.clone(), whole: second.end.whole, ..Framing::default() },
+            ..Step::of(Move::Static)
+        };
+        let rest = first.movement == Move::Static && first.duration_secs.is_none() && first.end.size.is_none();
+        let is_one = rest && needs && *second == plain && !second.end.subjects.is_empty();
+        is_one.then(|| Step {
+            end: Framing { subjects: second.end.subjects.clone(), whole: true, ..first.end.clone() },
+            words: first.joint_words(second),
+            ..first.clone()
+        })
+    });
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::fixture::{about, direction, linked, seen};
+    use super::*;
+
+    #[test]
+    fn what_a_picture_at_rest_needs_is_in_it() {
+        let read = |text: &str| {
+            let at = text.find('.').unwrap() + 2;
+            let mut needed = about(Move::Static, &[7, 9], [at, text.len()]);
+            needed.end.whole = true;
+            let mut direction = direction(vec![about(Move::Static, &[5], [0, at - 1]), needed]);
+            show_needed(&linked(text), &mut direction);
+            seen(&direction.program.steps)
+        };
+        let one = vec![(Move::Static, vec![7, 9])];
+        assert_eq!(read("overhead shot of <obj-0> . i need <obj-1> and the lamp in frame"), one);
+        assert_eq!(read("overhead shot of <obj-0> . then show <obj-1> in frame").len(), 2);
     }
 }

@@ -159,7 +159,12 @@ pub(crate) fn show_both(linked: &Linked, steps: &mut [Step]) {
         let before = &words[at.saturating_sub(2)..at];
         let is_wide = before.iter().any(|(word, _)| *word == "wide" || *word == "with")
             && words[at.saturating_sub(4)..at].iter().any(|(word, _)| *word == "wide");
-        let is_seen = (has(&SEEN) || is_wide) && !has(&DENIALS);
+        // `So that we see both of them and the stool`.
+        let is_joint = |at: usize| near.get(at).is_some_and(|(word, _)| JOINTS.contains(word));
+        let and_more = (next == "of" && is_joint(2) || is_joint(0))
+            && before.iter().any(|(word, _)| matches!(*word, "see" | "show" | "seeing" | "showing"))
+            && near.iter().any(|(word, _)| linked.slot_at(word).is_some());
+        let is_seen = (has(&SEEN) || is_wide || and_more) && !has(&DENIALS);
         if PARTS.contains(&next) || linked.slot_at(next).is_some() || next == "the" || !is_seen {
             continue;
         }
@@ -170,8 +175,8 @@ pub(crate) fn show_both(linked: &Linked, steps: &mut [Step]) {
             let framing = if step.end.subjects.is_empty() { &mut step.start } else { &mut step.end };
             show_pair(framing, [first, second]);
             let pair = linked.expanded(&[first, second]);
-            let adds = is_wide && JOINTS.contains(&next) && framing.whole;
-            if adds && framing.subjects.iter().all(|id| !pair.contains(id)) {
+            let others = is_wide && JOINTS.contains(&next) && framing.subjects.iter().all(|id| !pair.contains(id));
+            if framing.whole && (others || and_more) {
                 add_ids(&mut framing.subjects, &pair);
             }
         }
@@ -228,6 +233,17 @@ mod tests {
     use super::super::fixture::{about, linked};
     use super::*;
     use cinesplat_trajectory::Move;
+
+    #[test]
+    fn both_of_them_and_something_are_three() {
+        let text = "from <obj-0> to <obj-1> , then pull out so that we see both of them and <obj-2>";
+        let linked = Linked { slots: vec![5, 7, 9], ..linked(text) };
+        let mut step = about(Move::PullOut, &[7, 9], [26, text.len()]);
+        step.end.whole = true;
+        let mut steps = [step];
+        show_both(&linked, &mut steps);
+        assert_eq!(steps[0].end.subjects, [7, 9, 5]);
+    }
 
     fn shown(text: &str, ids: &[u32]) -> Vec<u32> {
         let linked = Linked { slots: vec![5, 7, 9], ..linked(text) };

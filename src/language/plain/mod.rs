@@ -14,6 +14,18 @@ use super::tokenizer::Word;
 use shorthand::Shorthand;
 use spelling::Spelling;
 
+/// Whether most words are no English ones, names and shorthand aside: `asdf qwer`, `langsam auf die Lampe zu`.
+///
+/// # Errors
+/// [`LanguageError::BadData`] when an embedded list is malformed.
+pub fn is_foreign(words: &[&str]) -> Result<bool, LanguageError> {
+    let spelling = Spelling::embedded()?;
+    let is_word = |word: &&&str| word.len() > 1 && word.chars().all(char::is_alphabetic);
+    let (known, unknown): (Vec<&str>, Vec<&str>) =
+        words.iter().filter(is_word).partition(|word| spelling.is_known(word) || spelling.is_known(&stem(word)));
+    Ok(unknown.len() > known.len())
+}
+
 /// `words` of `prompt` in plain words; those that `is_name` marks stay. A word that stands for several gives all of them its
 /// bytes.
 ///

@@ -82,7 +82,8 @@ impl Spelling {
         nearest(word, long, most)
     }
 
-    fn is_known(&self, word: &str) -> bool {
+    /// Whether a word is an English one, or of the language of shots.
+    pub(super) fn is_known(&self, word: &str) -> bool {
         self.english.binary_search(&word).is_ok()
             || KnownWords::embedded().contains(word)
             || Things::embedded().roles(word) != 0

@@ -158,6 +158,8 @@ fn orbit_deg(context: &StepContext) -> f64 {
 
 /// Size of what lies below a camera that sinks toward it from straight above: from as high as the room allows.
 const HIGH_FILL: (f64, f64) = (0.12, 0.4);
+/// The same of a lone thing, around which there is nothing else to see.
+const HIGH_LONE_FILL: (f64, f64) = (0.55, 0.8);
 
 /// Rises or sinks, aimed at the subject.
 pub(super) fn crane(context: &StepContext) -> Vec<MotionSegment> {
@@ -171,7 +173,8 @@ pub(super) fn crane(context: &StepContext) -> Vec<MotionSegment> {
         (Vec::new(), view)
     } else {
         let from_above = !upward && context.step.start.angle == Some(ShotAngle::Overhead);
-        context.opened_on(&target, if from_above { HIGH_FILL } else { (0.42, 0.68) })
+        let high_fill = if context.world.is_indoor() { HIGH_FILL } else { HIGH_LONE_FILL };
+        context.opened_on(&target, if from_above { high_fill } else { (0.42, 0.68) })
     };
     let states = if swoops(context, &first, &target, upward) {
         swoop(context, &first, &target)
@@ -262,6 +265,7 @@ fn end_elevation_deg(context: &StepContext, free_deg: f64) -> f64 {
     match context.step.end.angle {
         Some(ShotAngle::Overhead) if context.world.is_indoor() => lerp((58.0, 70.0), context.parameters[6]),
         Some(ShotAngle::Overhead) => lerp((66.0, 80.0), context.parameters[6]),
+        Some(ShotAngle::High) if context.step.movement == Move::CraneUp => lerp((30.0, 38.5), context.parameters[6]),
         Some(ShotAngle::High) => lerp((24.0, 38.0), context.parameters[6]),
         Some(ShotAngle::EyeLevel) => lerp((-4.0, 7.0), context.parameters[6]),
         Some(ShotAngle::Low) => lerp((-30.0, -10.0), context.parameters[6]),
@@ -313,10 +317,19 @@ fn near_side(context: &StepContext, [start, end]: [&Target; 2], first: &CameraSt
     if stands_on_it || stated_azimuths(context.world, end, &context.step.end).is_some() {
         return azimuth_rad;
     }
-    let near = bearing_of(context.world, end.aim, first.pose.position).azimuth_rad;
+    // From straight above, the picture stays the way up that it is.
+    let up = first.pose.rotation * DVec3::NEG_Y;
+    let is_steep = first.pose.forward().dot(context.world.frame.up) < -STEEP_SIN;
+    let near = if is_steep {
+        context.world.frame.azimuth(-up)
+    } else {
+        bearing_of(context.world, end.aim, first.pose.position).azimuth_rad
+    };
     near + rotation::short_turn(azimuth_rad - near).clamp(-CRANE_BESIDE_RAD, CRANE_BESIDE_RAD)
 }
 
+/// Sine of the angle below the horizon from which on a camera looks straight down.
+const STEEP_SIN: f64 = 0.77;
 /// Farthest that a crane goes around its second subject, radians.
 const CRANE_BESIDE_RAD: f64 = 0.45;
 
